@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#include "decoder/pipeline/registry.hpp"
+
+#include "decoder/devicenet/layouts.hpp"
+#include "decoder/profiles/profiles.hpp"
+#include "decoder/rtex/layouts.hpp"
+
+namespace servotrace {
+
+std::vector<const Layout*> all_layouts() {
+  std::vector<const Layout*> all;
+  const auto append = [&all](std::span<const Layout* const> layouts) {
+    all.insert(all.end(), layouts.begin(), layouts.end());
+  };
+  append(rtex::layouts());
+  append(devicenet::layouts());
+  for (const DriveProfile* profile : kProfiles) append(profile->layouts);
+  return all;
+}
+
+std::vector<DerivedField> all_derived() {
+  std::vector<DerivedField> all;
+  for (const Field* field : rtex::derived()) all.push_back({"rtex", field});
+  for (const Field* field : devicenet::derived()) all.push_back({"dnet", field});
+  return all;
+}
+
+}  // namespace servotrace

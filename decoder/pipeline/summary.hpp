@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// What the sessions know at this moment, for `info`, the node lines of the results and the report. Made on demand.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "decoder/findings/finding.hpp"
+
+namespace servotrace {
+
+// One learnt or configured setting: key as in servotrace.toml ("communication_cycle_us", "Pr7.23", "epr_ms").
+struct Fact {
+  std::string key;
+  std::string value;
+  Basis basis;
+};
+
+struct NodeSummary {
+  NodeRef node;
+  std::string name;        // from the settings, or empty
+  std::string profile;     // "minas-a5n", "yaskawa-ns310", "nsk-esb", "generic"; empty: not recognised
+  std::string recognised;  // how: "configured", "identity", "guessed by I/O sizes", ...
+  std::vector<Fact> facts;
+};
+
+// Latencies and intervals: counts, sums and bounds of a quantity in nanoseconds.
+struct Statistic {
+  std::string key;  // "cycle", "poll response", "parameter write"
+  std::uint64_t count = 0;
+  std::int64_t minimum_ns = 0;
+  std::int64_t maximum_ns = 0;
+  double mean_ns = 0;
+  std::int64_t percentile_99_ns = 0;
+  NodeRef node;
+};
+
+struct BusSummary {
+  BusRef bus;
+  Protocol protocol = Protocol::kNone;  // kNone: CAN without evidence of DeviceNet
+  std::string recognised;               // "record header", "configured", "evidence: ..."
+  std::uint64_t frames = 0;
+  bool sampled = false;
+  std::vector<Fact> facts;
+  std::vector<NodeSummary> nodes;
+  std::vector<Statistic> statistics;
+};
+
+struct Summary {
+  std::vector<BusSummary> buses;
+  std::uint64_t frames = 0;            // pushed
+  std::uint64_t checked_frames = 0;    // of a known bus
+  std::uint64_t untracked_frames = 0;  // of interfaces or buses above the limit, not looked at
+};
+
+}  // namespace servotrace

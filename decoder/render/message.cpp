@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#include "decoder/render/message.hpp"
+
+#include <fmt/format.h>
+
+#include "decoder/findings/catalogue.hpp"
+
+namespace servotrace {
+namespace {
+
+std::string argument_text(const Argument& argument, std::int64_t value) {
+  const ValueName* name = find_value(argument.names, value);
+  const auto unsigned32 = static_cast<std::uint32_t>(value);
+  const auto with_name = [name](std::string number) {
+    return name == nullptr ? number : fmt::format("{} ({})", number, name->name);
+  };
+  switch (argument.format) {
+    case ArgumentFormat::kDecimal:
+      return fmt::format("{}", value);
+    case ArgumentFormat::kHex2:
+      return fmt::format("{:02X}h", unsigned32);
+    case ArgumentFormat::kHex4:
+      return fmt::format("{:04X}h", unsigned32);
+    case ArgumentFormat::kHex8:
+      return fmt::format("{:08X}h", unsigned32);
+    case ArgumentFormat::kName:
+      return name == nullptr ? fmt::format("{}", value) : std::string(name->name);
+    case ArgumentFormat::kHex2Name:
+      return with_name(fmt::format("{:02X}h", unsigned32));
+    case ArgumentFormat::kHex4Name:
+      return with_name(fmt::format("{:04X}h", unsigned32));
+    case ArgumentFormat::kDecimalName:
+      return with_name(fmt::format("{}", value));
+    case ArgumentFormat::kParameter:
+      return fmt::format("Pr{}.{:02}", unsigned32 >> 8U & 0xFFU, unsigned32 & 0xFFU);
+    case ArgumentFormat::kMilliseconds:
+      return fmt::format("{:.3f}", static_cast<double>(value) / 1e6);
+    case ArgumentFormat::kMicroseconds:
+      return fmt::format("{:.1f}", static_cast<double>(value) / 1e3);
+    case ArgumentFormat::kBits: {
+      std::string list;
+      for (unsigned bit = 0; bit < 64; ++bit) {
+        if ((static_cast<std::uint64_t>(value) >> bit & 1U) == 0) continue;
+        if (!list.empty()) list += ", ";
+        list += fmt::format("{}", bit);
+      }
+      return list.empty() ? "none" : list;
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string message(const Finding& finding) {
+  const Rule& row = rule_row(finding.rule);
+  std::string text;
+  for (std::size_t i = 0; i < row.message.size(); ++i) {
+    if (row.message[i] != '{') {
+      text += row.message[i];
+      continue;
+    }
+    const auto index = static_cast<std::size_t>(row.message[i + 1] - '0');
+    text += argument_text(row.arguments[index], finding.arguments[index]);
+    i += 2;
+  }
+  return text;
+}
+
+}  // namespace servotrace
