@@ -14,13 +14,12 @@
 
 namespace servotrace::simulator {
 
-// A finding the scenario must raise: all of them, and no others of severity warning or error (nor notes, where
-// `expect_notes` says so) may appear.
+// A finding the scenario must raise: all of them, and no others, may appear.
 struct ExpectedFinding {
   std::string rule;            // "RX201"
-  int mac_id = -1;             // -1: of a whole bus or the capture, or any
+  int mac_id = -1;             // -1: of a whole bus or the capture
   bool any_node = true;        // false where the scenario names mac_id
-  std::string channel;         // "", "main", "sub", "poll", "explicit"
+  std::string channel;         // "" any, "main", "sub", "poll", "explicit", "unconnected"
   std::uint32_t findings = 1;  // how many
   std::string severity;        // "" any
   std::string cause;           // rule it must name as its cause; "" any
@@ -53,10 +52,11 @@ struct SimulatedFrame {
 
 struct Simulation {
   std::vector<SimulatedInterface> interfaces;
-  std::vector<SimulatedFrame> frames;  // sorted by time; a file order of equal times is kept
+  std::vector<SimulatedFrame> frames;  // in the order of recording: by time, except where a scenario's recorder errs
 };
 
-// Reads a scenario. `origin` names it in messages (file:line:column).
+// Reads a scenario. `origin` names it in messages (origin:line:column). The tables of the buses are checked by
+// simulate().
 Result<Scenario> parse_scenario(std::string_view text, std::string origin);
 Result<Scenario> read_scenario(const std::filesystem::path& path);
 Result<Simulation> simulate(const Scenario& scenario);
