@@ -34,7 +34,7 @@ cause = "CP104"
 [[raw]]
 link_type = 9
 )",
-                                                   "folder/foreign.toml");
+                                             "folder/foreign.toml");
   ASSERT_TRUE(scenario) << scenario.error().text();
   EXPECT_EQ(scenario->name, "foreign");
   EXPECT_EQ(scenario->title, "A capture with a foreign link type");
@@ -83,7 +83,7 @@ link_type = 9
 interface = "other"
 frame = [{at_ms = 1, bytes = "01"}, {at_ms = 2, bytes = "FF"}]
 )",
-                                                   "s.toml");
+                                             "s.toml");
   ASSERT_TRUE(scenario) << scenario.error().text();
   Result<Simulation> simulation = simulate(*scenario);
   ASSERT_TRUE(simulation) << simulation.error().text();
