@@ -2,6 +2,7 @@
 // The drive profile nsk-esb.
 #pragma once
 
+#include "decoder/profiles/nsk_esb/layouts.hpp"
 #include "decoder/profiles/profile.hpp"
 
 namespace servotrace::esb {
@@ -14,6 +15,7 @@ inline constexpr DriveProfile kProfile{
     .title = "NSK Megatorque ESB",
     .command_size = 10,
     .response_size = 10,
+    .layouts = kLayouts,
     .make_session = &make_session,
 };
 

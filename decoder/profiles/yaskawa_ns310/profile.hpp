@@ -3,6 +3,7 @@
 #pragma once
 
 #include "decoder/profiles/profile.hpp"
+#include "decoder/profiles/yaskawa_ns310/layouts.hpp"
 
 namespace servotrace::ns310 {
 
@@ -14,6 +15,7 @@ inline constexpr DriveProfile kProfile{
     .title = "Yaskawa SGDH with NS310",
     .command_size = 8,
     .response_size = 8,
+    .layouts = kLayouts,
     .make_session = &make_session,
 };
 
