@@ -22,10 +22,12 @@ TEST(Ns310Oracle, Section531CommandFormat) {
     std::int64_t value;
   };
   const Row rows[] = {
-      {"start_trajectory", "01 00 00 00", 1}, {"start_block", "02 00 00 00", 1},   {"incremental", "04 00 00 00", 1},
-      {"direction", "08 00 00 00", 1},        {"smooth_stop", "10 00 00 00", 1},   {"hard_stop", "20 00 00 00", 1},
-      {"valid_data", "40 00 00 00", 1},       {"enable", "80 00 00 00", 1},        {"block_number", "00 FF 00 00", 255},
-      {"command_code", "00 00 1F 00", 0x1F},  {"command_axis", "00 00 E0 00", 7},  {"response_code", "00 00 00 1F", 0x1F},
+      {"start_trajectory", "01 00 00 00", 1}, {"start_block", "02 00 00 00", 1},
+      {"incremental", "04 00 00 00", 1},      {"direction", "08 00 00 00", 1},
+      {"smooth_stop", "10 00 00 00", 1},      {"hard_stop", "20 00 00 00", 1},
+      {"valid_data", "40 00 00 00", 1},       {"enable", "80 00 00 00", 1},
+      {"block_number", "00 FF 00 00", 255},   {"command_code", "00 00 1F 00", 0x1F},
+      {"command_axis", "00 00 E0 00", 7},     {"response_code", "00 00 00 1F", 0x1F},
       {"response_axis", "00 00 00 E0", 7},
   };
   EXPECT_EQ(std::size(rows), kCommand.fields.size());
