@@ -80,10 +80,9 @@ void read_inputs(const toml::table& source, RtexAxisSettings& axis, TomlErrors& 
 }
 
 void read_axis(const toml::table& source, RtexSettings& rtex, TomlErrors& errors) {
-  const TomlTable table(source, "[[rtex.axis]]",
-                        {"ring", "mac_id", "name", "data_size", "control", "position", "parameters", "inputs",
-                         "max_speed"},
-                        errors);
+  const TomlTable table(
+      source, "[[rtex.axis]]",
+      {"ring", "mac_id", "name", "data_size", "control", "position", "parameters", "inputs", "max_speed"}, errors);
   RtexAxisSettings axis;
   if (const auto ring = table.integer("ring", 0, 255)) axis.ring = static_cast<std::uint8_t>(*ring);
   table.require("mac_id");
@@ -110,16 +109,16 @@ void read_axis(const toml::table& source, RtexSettings& rtex, TomlErrors& errors
 }
 
 void read_rtex(const toml::table& source, RtexSettings& rtex, TomlErrors& errors) {
-  const TomlTable table(source, "[rtex]",
-                        {"communication_cycle_us", "command_update_ratio", "sync", "user_link_type", "ethertype",
-                         "udp_port", "axis"},
-                        errors);
+  const TomlTable table(
+      source, "[rtex]",
+      {"communication_cycle_us", "command_update_ratio", "sync", "user_link_type", "ethertype", "udp_port", "axis"},
+      errors);
   if (const auto cycle_us = table.number("communication_cycle_us")) {
     rtex.communication_cycle_ns = nearest_cycle_ns(*cycle_us);
     if (!rtex.communication_cycle_ns) {
-      table.fail("communication_cycle_us",
-                 fmt::format("'communication_cycle_us' = {}: must be 83.333, 166.667, 500 or 1000 (within 2 %)",
-                             *cycle_us));
+      table.fail(
+          "communication_cycle_us",
+          fmt::format("'communication_cycle_us' = {}: must be 83.333, 166.667, 500 or 1000 (within 2 %)", *cycle_us));
     }
   }
   if (const auto ratio = table.integer("command_update_ratio", 1, 2)) {
