@@ -40,6 +40,7 @@ enum class ArgumentFormat : std::uint8_t {
   kMilliseconds,  // nanoseconds, printed in ms with three places
   kMicroseconds,  // nanoseconds, printed in us with one place
   kBits,          // a set of places or MAC IDs: "1, 4, 7"
+  kFlags,         // the names of the bits set, bit n by value n of `names`: "F1, F3"; "none"
 };
 
 struct Argument {

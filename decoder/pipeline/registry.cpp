@@ -22,6 +22,9 @@ std::vector<DerivedField> all_derived() {
   std::vector<DerivedField> all;
   for (const Field* field : rtex::derived()) all.push_back({"rtex", field});
   for (const Field* field : devicenet::derived()) all.push_back({"dnet", field});
+  for (const DriveProfile* profile : kProfiles) {
+    for (const Field* field : profile->derived) all.push_back({profile->protocol, field});
+  }
   return all;
 }
 

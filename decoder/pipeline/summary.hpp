@@ -4,8 +4,10 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "decoder/core/durations.hpp"
 #include "decoder/findings/finding.hpp"
 
 namespace servotrace {
@@ -35,6 +37,19 @@ struct Statistic {
   std::int64_t percentile_99_ns = 0;
   NodeRef node;
 };
+
+// What was measured, where anything was.
+inline void append_statistic(std::vector<Statistic>& to, std::string key, const NodeRef& node,
+                             const Durations& measured) {
+  if (measured.count() == 0) return;
+  to.push_back(Statistic{.key = std::move(key),
+                         .count = measured.count(),
+                         .minimum_ns = measured.minimum_ns(),
+                         .maximum_ns = measured.maximum_ns(),
+                         .mean_ns = measured.mean_ns(),
+                         .percentile_99_ns = measured.percentile_ns(99),
+                         .node = node});
+}
 
 struct BusSummary {
   BusRef bus;

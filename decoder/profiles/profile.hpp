@@ -73,6 +73,7 @@ class DriveSession {
 struct DriveProfile {
   std::string_view key;                       // "yaskawa-ns310"
   std::string_view title;                     // "Yaskawa SGDH with NS310"
+  std::string_view protocol;                  // of its layouts and derived fields: "ns310"
   std::uint8_t command_size = 0;              // bytes of poll data master to drive, 0: unknown
   std::uint8_t response_size = 0;             // bytes of poll data drive to master, 0: unknown
   std::span<const std::uint16_t> vendor_ids;  // Identity attribute 1; empty: never recognised by identity
@@ -80,6 +81,7 @@ struct DriveProfile {
   std::string_view product_name;              // Identity attribute 7, prefix; empty: not used
   std::span<const devicenet::ObjectClass> objects;
   std::span<const Layout* const> layouts;
+  std::span<const Field* const> derived;  // fields no single frame holds
   // decode_only: guessed drive; segments are added, no rule is raised. `owner`: the node's findings.
   std::unique_ptr<DriveSession> (*make_session)(const Settings& settings, const NodeRef& node, OwnerId owner,
                                                 bool decode_only) = nullptr;

@@ -37,12 +37,15 @@ std::string argument_text(const Argument& argument, std::int64_t value) {
       return fmt::format("{:.3f}", static_cast<double>(value) / 1e6);
     case ArgumentFormat::kMicroseconds:
       return fmt::format("{:.1f}", static_cast<double>(value) / 1e3);
+    case ArgumentFormat::kFlags:
     case ArgumentFormat::kBits: {
       std::string list;
       for (unsigned bit = 0; bit < 64; ++bit) {
         if ((static_cast<std::uint64_t>(value) >> bit & 1U) == 0) continue;
         if (!list.empty()) list += ", ";
-        list += fmt::format("{}", bit);
+        const ValueName* flag =
+            argument.format == ArgumentFormat::kFlags ? find_value(argument.names, bit) : nullptr;
+        list += flag == nullptr ? fmt::format("{}", bit) : std::string(flag->name);
       }
       return list.empty() ? "none" : list;
     }

@@ -13,6 +13,7 @@ std::unique_ptr<DriveSession> make_session(const Settings& settings, const NodeR
 inline constexpr DriveProfile kProfile{
     .key = "nsk-esb",
     .title = "NSK Megatorque ESB",
+    .protocol = "esb",
     .command_size = 10,
     .response_size = 10,
     .layouts = kLayouts,

@@ -10,11 +10,18 @@ namespace servotrace::ns310 {
 std::unique_ptr<DriveSession> make_session(const Settings& settings, const NodeRef& node, OwnerId owner,
                                            bool decode_only);
 
+// The manual prints 44h (SIE-C718-7 B.1); the number the maker holds is decimal 44.
+inline constexpr std::uint16_t kVendorIds[] = {44, 0x44};
+
 inline constexpr DriveProfile kProfile{
     .key = "yaskawa-ns310",
     .title = "Yaskawa SGDH with NS310",
+    .protocol = "ns310",
     .command_size = 8,
     .response_size = 8,
+    .vendor_ids = kVendorIds,
+    .product_code = 0x51,
+    .product_name = "JUSP-NS310",
     .layouts = kLayouts,
     .make_session = &make_session,
 };
