@@ -43,8 +43,7 @@ std::string argument_text(const Argument& argument, std::int64_t value) {
       for (unsigned bit = 0; bit < 64; ++bit) {
         if ((static_cast<std::uint64_t>(value) >> bit & 1U) == 0) continue;
         if (!list.empty()) list += ", ";
-        const ValueName* flag =
-            argument.format == ArgumentFormat::kFlags ? find_value(argument.names, bit) : nullptr;
+        const ValueName* flag = argument.format == ArgumentFormat::kFlags ? find_value(argument.names, bit) : nullptr;
         list += flag == nullptr ? fmt::format("{}", bit) : std::string(flag->name);
       }
       return list.empty() ? "none" : list;
