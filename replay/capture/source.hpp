@@ -53,6 +53,8 @@ class Source {
   std::span<const InterfaceInfo> interfaces() const { return interfaces_; }
   // Drop reports seen so far, in order; the caller remembers how many it took.
   std::span<const Dropped> dropped() const { return dropped_; }
+  // Forgets the reports the caller has taken, so that a capture full of them needs no memory. At most 65,536 are kept.
+  void clear_dropped() { dropped_.clear(); }
   // Name of the format for people and results: "pcapng", "pcap", "candump log", "pcapng (gzip)".
   const std::string& format() const { return format_; }
   // Where the last frame's bytes lie in the (uncompressed) file; 0, 0 for text formats.

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "replay/capture/input.hpp"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+
+#include "replay/capture/limits.hpp"
+
+namespace servotrace::replay {
+namespace {
+
+std::string reason(int error) { return std::generic_category().message(error); }
+
+class MappedInput final : public Input {
+ public:
+  MappedInput(void* address, std::size_t length) : address_(address), length_(length) {
+    begin_ = cursor_ = static_cast<const std::uint8_t*>(address);
+    end_ = begin_ + length;
+    size_ = length;
+    ::madvise(address, length, MADV_SEQUENTIAL);
+  }
+  ~MappedInput() override { ::munmap(address_, length_); }
+
+ private:
+  void refill(std::size_t) override {}  // all there is, is there
+
+  void* address_;
+  std::size_t length_;
+};
+
+class DescriptorInput final : public BufferedInput {
+ public:
+  DescriptorInput(int descriptor, bool owned) : descriptor_(descriptor), owned_(owned) {}
+  ~DescriptorInput() override {
+    if (owned_) ::close(descriptor_);
+  }
+
+ private:
+  std::size_t fill(MutableBytes into) override {
+    for (;;) {
+      const ssize_t got = ::read(descriptor_, into.data(), into.size());
+      if (got >= 0) return static_cast<std::size_t>(got);
+      if (errno == EINTR) continue;
+      failure_ = "cannot be read on: " + reason(errno);
+      return 0;
+    }
+  }
+
+  int descriptor_;
+  bool owned_;
+};
+
+}  // namespace
+
+void BufferedInput::refill(std::size_t count) {
+  auto there = static_cast<std::size_t>(end_ - cursor_);
+  if (ended_) return;
+  const std::size_t wanted = std::max(count, kChunk);
+  base_ += static_cast<std::uint64_t>(cursor_ - begin_);
+  if (buffer_.size() < wanted) {
+    std::vector<std::uint8_t> larger(wanted);
+    if (there > 0) std::memcpy(larger.data(), cursor_, there);
+    buffer_ = std::move(larger);
+  } else if (there > 0) {
+    std::memmove(buffer_.data(), cursor_, there);
+  }
+  while (there < count && !ended_) {
+    const std::size_t got = fill(MutableBytes(buffer_).subspan(there));
+    ended_ = got == 0;
+    there += got;
+  }
+  begin_ = cursor_ = buffer_.data();
+  end_ = begin_ + there;
+}
+
+Result<std::unique_ptr<Input>> open_input(const std::filesystem::path& path) {
+  const std::string name = path.string();
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return Error{name, "cannot be opened: " + reason(errno)};
+  auto closing = std::make_unique<DescriptorInput>(descriptor, true);
+  struct ::stat status {};
+  if (::fstat(descriptor, &status) != 0) return Error{name, "cannot be opened: " + reason(errno)};
+  if (S_ISDIR(status.st_mode)) return Error{name, "is a directory, not a capture"};
+  if (S_ISREG(status.st_mode) && status.st_size > 0) {
+    const auto length = static_cast<std::size_t>(status.st_size);
+    void* const address = ::mmap(nullptr, length, PROT_READ, MAP_PRIVATE, descriptor, 0);
+    if (address != MAP_FAILED) return std::unique_ptr<Input>(std::make_unique<MappedInput>(address, length));
+  }
+  return std::unique_ptr<Input>(std::move(closing));
+}
+
+std::unique_ptr<Input> descriptor_input(int descriptor) { return std::make_unique<DescriptorInput>(descriptor, false); }
+
+}  // namespace servotrace::replay

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// What kind of file this is, by its first bytes.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "decoder/core/result.hpp"
+#include "replay/capture/input.hpp"
+
+namespace servotrace::replay {
+
+enum class Kind : std::uint8_t { kPcap, kPcapng };
+
+// Looks at the first bytes of `input` and takes none. A kind that is not read is refused by name, with the converter
+// that would help.
+Result<Kind> recognise(Input& input, const std::string& name);
+
+}  // namespace servotrace::replay
