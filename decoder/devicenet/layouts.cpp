@@ -1,9 +1,38 @@
 // SPDX-License-Identifier: MIT
 #include "decoder/devicenet/layouts.hpp"
 
+#include <vector>
+
+#include "decoder/devicenet/derived.hpp"
+#include "decoder/devicenet/objects.hpp"
+
 namespace servotrace::devicenet {
 
-std::span<const Layout* const> layouts() { return {}; }
-std::span<const Field* const> derived() { return {}; }
+std::span<const Layout* const> layouts() {
+  static const std::vector<const Layout*> kAll = [] {
+    std::vector<const Layout*> all{
+        &kMacCheck,     &kHeader,           &kService,       &kRequest88,       &kRequest816,
+        &kRequest1616,  &kRequest168,       &kPathRequest,   &kAttribute,       &kData,
+        &kError,        &kAllocate,         &kRelease,       &kAllocated,       &kFragment,
+        &kFragmentAck,  &kFragmentData,     &kUnconnected,   &kOpenRequest,     &kOpenResponse,
+        &kCloseRequest, &kUnconnectedError, &kShutdown,      &kUnconnectedData, &kFaulted,
+        &kFaultedData,  &kOwnership,        &kOwnershipData, &kIoData,          &kBitStrobe,
+        &kErrorFrame};
+    for (const ObjectClass& object : standard_objects()) {
+      for (const Layout& layout : object.layouts) all.push_back(&layout);
+    }
+    return all;
+  }();
+  return kAll;
+}
+
+std::span<const Field* const> derived() {
+  static constexpr const Field* kAll[] = {
+      &kIdentifierField,  &kGroupField,          &kMessageIdField,     &kMessageField,      &kSourceField,
+      &kDestinationField, &kMulticastGroupField, &kCheckedField,       &kIdleField,         &kAmbiguousField,
+      &kServiceNameField, &kObjectNameField,     &kAttributeNameField, &kResponseTimeField, &kPollIntervalField,
+      &kPollStateField,   &kErrorClassField,     &kScannerCodeField};
+  return kAll;
+}
 
 }  // namespace servotrace::devicenet

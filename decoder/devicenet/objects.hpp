@@ -86,6 +86,37 @@ struct ObjectClass {
   std::span<const ServiceName> services;
   std::span<const Attribute> attributes;
   std::string_view section;
+  // One a row of `attributes`, in their order (object_layouts.hpp); empty: values are shown as bytes.
+  std::span<const Layout> layouts = {};
+
+  constexpr const Attribute* find(std::uint32_t number) const {
+    for (const Attribute& row : attributes) {
+      if (row.number == number) return &row;
+    }
+    return nullptr;
+  }
+  constexpr const Layout* layout_of(const Attribute& row) const {
+    const auto index = static_cast<std::size_t>(&row - attributes.data());
+    return index < layouts.size() ? &layouts[index] : nullptr;
+  }
+  constexpr bool has_service(std::uint8_t code) const {
+    for (const ServiceName& row : services) {
+      if (row.code == code) return true;
+    }
+    return false;
+  }
 };
+
+// The class of this id, or nullptr.
+constexpr const ObjectClass* find_class(std::span<const ObjectClass> classes, std::uint32_t id) {
+  for (const ObjectClass& row : classes) {
+    if (row.id == id) return &row;
+  }
+  return nullptr;
+}
+
+// The objects every DeviceNet device has (1 to 5) with their attributes, and the position controller classes 24h-27h
+// by name.
+std::span<const ObjectClass> standard_objects();
 
 }  // namespace servotrace::devicenet

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// The fields of a DeviceNet frame that lie in its CAN identifier, or that only the frames before it show.
+#pragma once
+
+#include "decoder/core/layout.hpp"
+#include "decoder/devicenet/can_id.hpp"
+
+namespace servotrace::devicenet {
+
+inline constexpr Field kIdentifierField{
+    .key = "identifier", .label = "CAN identifier", .width = 11, .base = Base::kHex, .section = kLinkSection};
+inline constexpr Field kGroupField{.key = "group", .label = "Message group", .width = 3, .section = kLinkSection};
+inline constexpr Field kMessageIdField{.key = "message_id", .label = "Message ID", .width = 6, .section = kLinkSection};
+inline constexpr Field kMessageField{
+    .key = "message", .label = "Message", .kind = Kind::kText, .section = kLinkSection};
+inline constexpr Field kSourceField{.key = "source",
+                                    .label = "Source MAC ID",
+                                    .width = 6,
+                                    .section = kLinkSection,
+                                    .explanation = "the node that sent the frame"};
+inline constexpr Field kDestinationField{.key = "destination",
+                                         .label = "Destination MAC ID",
+                                         .width = 6,
+                                         .section = kLinkSection,
+                                         .explanation = "the node the frame is for"};
+inline constexpr Field kMulticastGroupField{
+    .key = "multicast_group", .label = "Multicast group", .width = 6, .section = kLinkSection};
+inline constexpr Field kCheckedField{.key = "checked_mac",
+                                     .label = "MAC ID checked",
+                                     .width = 6,
+                                     .section = kLinkSection,
+                                     .explanation = "the MAC ID a Duplicate MAC ID check asks about"};
+inline constexpr Field kIdleField{.key = "idle",
+                                  .label = "Idle",
+                                  .width = 1,
+                                  .kind = Kind::kBool,
+                                  .section = kLinkSection,
+                                  .explanation = "a zero-length message: its sender is idle"};
+inline constexpr Field kAmbiguousField{
+    .key = "fragment_or_data",
+    .label = "Fragment or data",
+    .width = 1,
+    .kind = Kind::kBool,
+    .section = kLinkSection,
+    .explanation = "the connection size is not known: the first byte is data, or the header of a fragment"};
+inline constexpr Field kServiceNameField{
+    .key = "service_name", .label = "Service", .kind = Kind::kText, .section = kLinkSection};
+inline constexpr Field kObjectNameField{
+    .key = "object_name", .label = "Object", .kind = Kind::kText, .section = kLinkSection};
+inline constexpr Field kAttributeNameField{
+    .key = "attribute_name", .label = "Attribute", .kind = Kind::kText, .section = kLinkSection};
+inline constexpr Field kResponseTimeField{.key = "response_time_ns",
+                                          .label = "Response time",
+                                          .width = 64,
+                                          .kind = Kind::kSigned,
+                                          .unit = Unit::kNanosecond,
+                                          .section = kLinkSection,
+                                          .explanation = "from the request, or the poll command, to this answer"};
+inline constexpr Field kPollIntervalField{.key = "poll_interval_ns",
+                                          .label = "Poll interval",
+                                          .width = 64,
+                                          .kind = Kind::kSigned,
+                                          .unit = Unit::kNanosecond,
+                                          .section = kLinkSection,
+                                          .explanation = "from the poll command before to this one, same node"};
+inline constexpr ValueName kPollStateNames[] = {{0, "unknown"},   {1, "not allocated"}, {2, "refused"},
+                                                {3, "allocated"}, {4, "established"},   {5, "timed out"}};
+inline constexpr Field kPollStateField{.key = "poll_state",
+                                       .label = "Poll connection",
+                                       .width = 8,
+                                       .role = Role::kState,
+                                       .values = kPollStateNames,
+                                       .section = kLinkSection};
+inline constexpr Field kErrorClassField{.key = "error_class",
+                                        .label = "Error class",
+                                        .width = 29,
+                                        .base = Base::kHex,
+                                        .section = kLinkSection,
+                                        .explanation = "the class bits of a CAN error frame (SocketCAN)"};
+inline constexpr Field kScannerCodeField{
+    .key = "scanner_code",
+    .label = "Scanner code",
+    .width = 8,
+    .section = kLinkSection,
+    .explanation = "the status code common scanners show for this node in this case"};
+
+}  // namespace servotrace::devicenet
