@@ -64,10 +64,10 @@ TEST(AllocateAndRelease, ChoiceBits) {
   const struct {
     std::string_view key;
     std::uint8_t choice;
-  } kBits[] = {{"choice_explicit", 0x01},        {"choice_poll", 0x02},   {"choice_bit_strobe", 0x04},
-               {"choice_multicast_poll", 0x08},  {"choice_change_of_state", 0x10},
-               {"choice_cyclic", 0x20},          {"choice_ack_suppression", 0x40},
-               {"choice_reserved", 0x80}};
+  } kBits[] = {{"choice_explicit", 0x01},        {"choice_poll", 0x02},
+               {"choice_bit_strobe", 0x04},      {"choice_multicast_poll", 0x08},
+               {"choice_change_of_state", 0x10}, {"choice_cyclic", 0x20},
+               {"choice_ack_suppression", 0x40}, {"choice_reserved", 0x80}};
   for (const auto& bit : kBits) {
     auto request = hex("07 4B 03 01 00 07");
     request[4] = bit.choice;
