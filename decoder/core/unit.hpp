@@ -24,6 +24,7 @@ enum class Unit : std::uint8_t {
   kMicrosecond,
   kMillisecond,
   kSecond,
+  kMinute,
   kHertz,
   kVolt,
   kDegree,
@@ -31,6 +32,7 @@ enum class Unit : std::uint8_t {
   kByte,
   kAmpere,
   kNewtonMetre,
+  kTurn,
   kCount  // not a unit: how many there are
 };
 
@@ -70,6 +72,8 @@ constexpr std::string_view symbol(Unit unit) {
       return "ms";
     case Unit::kSecond:
       return "s";
+    case Unit::kMinute:
+      return "min";
     case Unit::kHertz:
       return "Hz";
     case Unit::kVolt:
@@ -84,6 +88,8 @@ constexpr std::string_view symbol(Unit unit) {
       return "A";
     case Unit::kNewtonMetre:
       return "N m";
+    case Unit::kTurn:
+      return "turns";
   }
   return "";
 }
