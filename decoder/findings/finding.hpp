@@ -61,6 +61,7 @@ struct Cause {
 struct Finding {
   RuleId rule{};
   Severity severity = Severity::kNote;  // after lowering; settings may change it further
+  Actor actor = Actor::kMaster;         // the rule's, or who did it this time (DN303)
   std::uint64_t frame = 0;              // the frame that proves it
   std::uint64_t last_frame = 0;         // of its episode
   std::uint32_t count = 1;              // of its episode

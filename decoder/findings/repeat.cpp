@@ -77,6 +77,7 @@ bool Findings::raise(const RawFrame& frame, const Report& report) {
   rule_state.finding = static_cast<std::uint32_t>(findings_.size());
   findings_.push_back(Finding{.rule = report.rule,
                               .severity = severity,
+                              .actor = report.actor.value_or(row.actor),
                               .frame = frame.number,
                               .last_frame = frame.number,
                               .count = 1,

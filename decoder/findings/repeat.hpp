@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -25,10 +26,11 @@ struct Report {
   std::array<std::uint64_t, 2> related = {};
   Basis basis = {};
   Cause cause = {};
-  std::int64_t variant = 0;  // another variant (an error code) ends the episode and begins one of its own
-  bool as_note = false;      // the catalogue lowers this occurrence to a note
-  bool as_warning = false;   // the catalogue lowers this occurrence to a warning
-  bool as_error = false;     // the catalogue raises this occurrence to an error
+  std::int64_t variant = 0;         // another variant (an error code) ends the episode and begins one of its own
+  bool as_note = false;             // the catalogue lowers this occurrence to a note
+  bool as_warning = false;          // the catalogue lowers this occurrence to a warning
+  bool as_error = false;            // the catalogue raises this occurrence to an error
+  std::optional<Actor> actor = {};  // who did it, where it is not the rule's actor
 };
 
 class Findings {
