@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "dissector/session.hpp"
+
+#include <bit>
+#include <exception>
+#include <map>
+#include <string>
+
+#include "decoder/pipeline/pipeline.hpp"
+#include "dissector/preferences.hpp"
+
+namespace servotrace::plugin {
+namespace {
+
+struct Session {
+  explicit Session(Settings given) : settings(std::move(given)), pipeline(settings) {}
+  Settings settings;
+  Pipeline pipeline;
+  FrameStore store;
+  Dissection pushed;   // as the pipeline fills it
+  Dissection shown;    // as the store gives it back
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> interfaces;  // section and number to dense number
+  std::uint32_t last_number = 0;
+  std::int64_t last_offset = -1;
+  std::vector<FrameStore::Answer> answers;
+  bool failed = false;  // out of memory: what is known stays, nothing is added
+};
+
+// One file a time is what libwireshark dissects; its callbacks carry no pointer of ours.
+std::unique_ptr<Session>& session() {
+  static std::unique_ptr<Session> instance;
+  return instance;
+}
+
+// Link types as capture files number them. Wireshark's own table answers with the first number of several.
+LinkType link_type(const wtap_rec& rec) {
+  const int encapsulation = rec.rec_header.packet_header.pkt_encap;
+  if (encapsulation == WTAP_ENCAP_RAW_IP) return LinkType::kRawIp;
+  const int number = wtap_wtap_encap_to_pcap_encap(encapsulation);
+  return static_cast<LinkType>(number < 0 || number > 0xFFFF ? 0xFFFF : number);
+}
+
+// Of the interface's timestamps. Wireshark knows powers of ten only.
+std::uint32_t resolution_ns(const wtap_rec& rec) {
+  std::uint32_t result = 1;
+  for (int digits = rec.tsprec < 0 ? 9 : rec.tsprec; digits < 9; ++digits) result *= 10;
+  return result;
+}
+
+void push(Session& self, const packet_info& pinfo, Bytes bytes, std::uint32_t original_length) noexcept {
+  const wtap_rec& rec = *pinfo.rec;
+  try {
+    const std::uint32_t section = (rec.presence_flags & WTAP_HAS_SECTION_NUMBER) != 0 ? rec.section_number : 0;
+    const std::uint32_t interface =
+        (rec.presence_flags & WTAP_HAS_INTERFACE_ID) != 0 ? rec.rec_header.packet_header.interface_id : 0;
+    const auto dense =
+        self.interfaces.try_emplace({section, interface}, static_cast<std::uint32_t>(self.interfaces.size()));
+    RawFrame frame;
+    frame.number = pinfo.num;
+    frame.time_ns = std::int64_t{pinfo.abs_ts.secs} * kSecondNs + pinfo.abs_ts.nsecs;
+    frame.link_type = link_type(rec);
+    frame.interface_id = dense.first->second;
+    frame.bytes = bytes;
+    frame.original_length = original_length;
+    // Wireshark has turned the identifiers of cooked CAN captures into the order of this machine.
+    frame.file_order = std::endian::native == std::endian::little ? ByteOrder::kLittle : ByteOrder::kBig;
+    frame.time_resolution_ns = resolution_ns(rec);
+    frame.has_time = (rec.presence_flags & WTAP_HAS_TS) != 0;
+    const auto known = static_cast<std::uint32_t>(self.pipeline.findings().all().size());
+    self.pipeline.push(frame, &self.pushed);
+    self.store.put(pinfo.num, self.pushed,
+                   {known, static_cast<std::uint32_t>(self.pipeline.findings().all().size()) - known});
+  } catch (const std::exception&) {
+    self.failed = true;
+  }
+}
+
+}  // namespace
+
+Visit visit(packet_info* pinfo) {
+  static const Dissection kNothing;
+  Visit result;
+  result.dissection = &kNothing;
+  result.number = pinfo->num;
+  if (pinfo->data_src == nullptr || pinfo->rec == nullptr || pinfo->rec->rec_type != REC_TYPE_PACKET) return result;
+  // The first data source is the frame itself, whatever has been reassembled or decrypted since.
+  tvbuff_t* const tvb = get_data_source_tvb(static_cast<const struct data_source*>(pinfo->data_src->data));
+  if (tvb == nullptr) return result;
+  const std::uint32_t length = tvb_captured_length(tvb);
+  const std::uint8_t* const data = length == 0 ? nullptr : tvb_get_ptr(tvb, 0, static_cast<int>(length));
+  const Bytes bytes(data, length);
+  result.tvb = tvb;
+
+  if (session() == nullptr) session() = std::make_unique<Session>(current_settings());
+  Session& self = *session();
+  // A frame that a read filter drops leaves its number to the next one, so the number alone does not tell them apart.
+  const bool is_new = pinfo->num > self.last_number ||
+                      (pinfo->num == self.last_number && pinfo->fd->file_off != self.last_offset);
+  if (!pinfo->fd->visited && is_new && !self.failed) {
+    self.last_number = pinfo->num;
+    self.last_offset = pinfo->fd->file_off;
+    push(self, *pinfo, bytes, tvb_reported_length(tvb));
+  }
+  FrameStore::Found found;
+  self.store.get(pinfo->num, bytes, self.shown, found);
+  result.dissection = &self.shown;
+  const std::span<const Finding> all = self.pipeline.findings().all();
+  if (found.first <= all.size() && found.count <= all.size() - found.first)
+    result.findings = all.subspan(found.first, found.count);
+  return result;
+}
+
+std::span<const FrameStore::Answer> answers_of(std::uint32_t number) {
+  Session* const self = session().get();
+  if (self == nullptr) return {};
+  self->store.answers(number, self->answers);
+  return self->answers;
+}
+
+std::uint32_t next_of_node(std::uint32_t number, const NodeRef& node) {
+  constexpr std::uint32_t kNear = 256;  // frames looked at
+  Session* const self = session().get();
+  if (self == nullptr) return 0;
+  for (std::uint32_t next = number + 1; next <= number + kNear && next <= self->last_number; ++next) {
+    FrameStore::Found found;
+    if (!self->store.get(next, {}, self->pushed, found)) continue;
+    for (const Link& link : self->pushed.links) {
+      if (link.kind == LinkKind::kPreviousOfNode && link.frame == number && link.node == node) return next;
+    }
+  }
+  return 0;
+}
+
+const char* node_text(wmem_allocator_t* pool, const NodeRef& node) {
+  const Session* const self = session().get();
+  const char* name = nullptr;
+  if (node.mac_id == kNoMacId) {
+    switch (node.bus.kind) {
+      case BusKind::kRing:
+        return node.protocol == Protocol::kRtex && node.place != 0
+                   ? wmem_strdup_printf(pool, "ring%u place %u", unsigned{node.bus.number}, unsigned{node.place})
+                   : wmem_strdup_printf(pool, "ring%u", unsigned{node.bus.number});
+      case BusKind::kCan:
+        return wmem_strdup_printf(pool, "can%u", node.bus.interface_id);
+      case BusKind::kNone:
+        break;
+    }
+    return "capture";
+  }
+  const bool is_axis = node.protocol == Protocol::kRtex;
+  if (self != nullptr) {
+    if (is_axis) {
+      const RtexAxisSettings* const axis = self->settings.axis(node.bus.number, node.mac_id);
+      if (axis != nullptr && !axis->name.empty()) name = axis->name.c_str();
+    } else {
+      const DevicenetNodeSettings* const entry = self->settings.node(node.mac_id);
+      if (entry != nullptr && !entry->name.empty()) name = entry->name.c_str();
+    }
+  }
+  const char* const kind = is_axis ? "axis" : "node";
+  if (name == nullptr) return wmem_strdup_printf(pool, "%s %d", kind, int{node.mac_id});
+  return wmem_strdup_printf(pool, "%s %d (%s)", kind, int{node.mac_id}, name);
+}
+
+void reset_session() { session().reset(); }
+
+}  // namespace servotrace::plugin

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The file Wireshark has open: one pipeline, fed with every frame once and in file order, and what it said of each.
+#pragma once
+
+#include <span>
+
+#include "decoder/findings/finding.hpp"
+#include "decoder/pipeline/dissection.hpp"
+#include "dissector/store.hpp"
+#include "dissector/ws.hpp"
+
+namespace servotrace::plugin {
+
+// A frame as the pipeline saw it. Valid until the next call of visit().
+struct Visit {
+  const Dissection* dissection = nullptr;  // never nullptr
+  std::span<const Finding> findings;       // of this frame, also those no plugin shows
+  tvbuff_t* tvb = nullptr;                 // the whole frame; nullptr where Wireshark has none
+  std::uint32_t number = 0;
+};
+
+// Pushes the frame into the pipeline where this is its first visit, and draws on what is kept where it is not. Every
+// entry of the plugin calls it, in any order: the frame is pushed once.
+Visit visit(packet_info* pinfo);
+
+// Frames that answer frame `number`, and the next one of the same node and direction (0: none near).
+std::span<const FrameStore::Answer> answers_of(std::uint32_t number);
+std::uint32_t next_of_node(std::uint32_t number, const NodeRef& node);
+
+// Names of nodes ("axis 3 (X)"). The text lives in `pool`.
+const char* node_text(wmem_allocator_t* pool, const NodeRef& node);
+
+// A new file, or the same once more with other settings: what is known is forgotten.
+void reset_session();
+
+}  // namespace servotrace::plugin

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Texts for the tree, made by the decoder's own renderers and copied into Wireshark's memory of the packet. The strings
+// they are made with are gone before Wireshark is called again.
+#pragma once
+
+#include "decoder/findings/finding.hpp"
+#include "decoder/pipeline/dissection.hpp"
+#include "dissector/ws.hpp"
+
+namespace servotrace::plugin {
+
+// A copy that ends in a zero.
+const char* pool_text(wmem_allocator_t* pool, std::string_view text);
+
+const char* message_text(wmem_allocator_t* pool, const Finding& finding);
+
+// What stands behind a field's raw value: " (45.0 r/min)" where the row scales it, " r/min" where it has but a unit,
+// "" where it has none.
+const char* unit_text(wmem_allocator_t* pool, const Field& field, std::int64_t value);
+
+// The info column.
+const char* info_text(wmem_allocator_t* pool, const Dissection& dissection);
+
+}  // namespace servotrace::plugin

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The only header that includes Wireshark, and the only place that knows its versions (4.0, 4.2, 4.4, 4.6).
+#pragma once
+
+#include <cstdint>
+
+#include <epan/column-utils.h>
+#include <epan/epan.h>
+#include <epan/expert.h>
+#include <epan/packet.h>
+#include <epan/prefs.h>
+#include <epan/proto_data.h>
+#include <epan/stats_tree.h>
+#include <epan/tap.h>
+#include <epan/tfs.h>
+#include <epan/uat.h>
+#include <epan/unit_strings.h>
+#include <epan/value_string.h>
+#include <wiretap/pcap-encap.h>
+#include <wiretap/wtap.h>
+#include <ws_version.h>
+
+#if !defined(WIRESHARK_VERSION_MAJOR) || !defined(WIRESHARK_VERSION_MINOR)
+#error "ws_version.h names no Wireshark version"
+#endif
+#define SERVOTRACE_WS_AT_LEAST(major, minor) \
+  (WIRESHARK_VERSION_MAJOR > (major) || (WIRESHARK_VERSION_MAJOR == (major) && WIRESHARK_VERSION_MINOR >= (minor)))
+
+namespace servotrace::plugin {
+
+// What a heuristic dissector and a UAT check return.
+#if SERVOTRACE_WS_AT_LEAST(4, 4)
+using WsBool = bool;
+#else
+using WsBool = gboolean;
+#endif
+
+}  // namespace servotrace::plugin
