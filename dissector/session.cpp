@@ -32,12 +32,30 @@ std::unique_ptr<Session>& session() {
   return instance;
 }
 
-// Link types as capture files number them. Wireshark's own table answers with the first number of several.
+// Link types as capture files number them, for those the decoder reads. Wireshark exports only the table's other
+// direction, so it is asked once for each of ours. Any other becomes a number no file uses.
 LinkType link_type(const wtap_rec& rec) {
+  struct Pair {
+    int encapsulation;
+    LinkType link_type;
+  };
+  static const auto kKnown = [] {
+    std::vector<Pair> known;
+    const auto add = [&known](int number) {
+      known.push_back({wtap_pcap_encap_to_wtap_encap(number), static_cast<LinkType>(number)});
+    };
+    for (const LinkType type :
+         {LinkType::kEthernet, LinkType::kCanSocketcan, LinkType::kWiresharkUpperPdu, LinkType::kLinuxSll,
+          LinkType::kLinuxSll2, LinkType::kRawIp, LinkType::kIpv4, LinkType::kIpv6, LinkType::kNull, LinkType::kLoop})
+      add(static_cast<int>(type));
+    for (int user = static_cast<int>(LinkType::kUser0); user <= static_cast<int>(LinkType::kUser15); ++user) add(user);
+    return known;
+  }();
   const int encapsulation = rec.rec_header.packet_header.pkt_encap;
-  if (encapsulation == WTAP_ENCAP_RAW_IP) return LinkType::kRawIp;
-  const int number = wtap_wtap_encap_to_pcap_encap(encapsulation);
-  return static_cast<LinkType>(number < 0 || number > 0xFFFF ? 0xFFFF : number);
+  for (const Pair& pair : kKnown) {
+    if (pair.encapsulation == encapsulation) return pair.link_type;
+  }
+  return static_cast<LinkType>(0xFFFF);
 }
 
 // Of the interface's timestamps. Wireshark knows powers of ten only.
