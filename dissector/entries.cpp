@@ -88,8 +88,7 @@ void apply_carriers() {
   if (now.ethertype != all.carriers.ethertype) change_table("ethertype", all.carriers.ethertype, now.ethertype);
   if (now.udp_port != all.carriers.udp_port) change_table("udp.port", all.carriers.udp_port, now.udp_port);
   if (now.user_link_type != all.carriers.user_link_type)
-    change_table("wtap_encap", user_encapsulation(all.carriers.user_link_type),
-                 user_encapsulation(now.user_link_type));
+    change_table("wtap_encap", user_encapsulation(all.carriers.user_link_type), user_encapsulation(now.user_link_type));
   all.carriers = now;
 }
 

@@ -31,12 +31,12 @@ int field_of(const Derived& derived);
 
 // Links between frames, a set for each of the protocols that have nodes.
 struct LinkFields {
-  int request_in = -1;       // this frame answers that one
-  int response_in = -1;      // that frame answers this one
-  int response_time = -1;    // from the request to this answer
+  int request_in = -1;        // this frame answers that one
+  int response_in = -1;       // that frame answers this one
+  int response_time = -1;     // from the request to this answer
   int accepted_command = -1;  // this frame accepts the command of that one
   int accepted_in = -1;
-  int previous_in = -1;      // of the same node and direction
+  int previous_in = -1;  // of the same node and direction
   int next_in = -1;
   int first_fragment = -1;
   int fragment = -1;  // an earlier fragment of the message this frame completes

@@ -19,10 +19,21 @@ struct Chosen {
   guint udp_port = kUdpPort;
   guint user_link_type = 0;
   gboolean can_is_devicenet = FALSE;
+  const char* settings_file = "";
 };
 Chosen& chosen() {
   static Chosen instance;
   return instance;
+}
+
+bool read_file(const char* file, replay::FileSettings& settings) {
+  Result<replay::FileSettings> read = replay::read_settings(file);
+  if (read) {
+    settings = std::move(read.value());
+    return true;
+  }
+  report_failure("servotrace: %s", read.error().text().c_str());
+  return false;
 }
 
 }  // namespace
@@ -42,6 +53,10 @@ void register_preferences() {
   prefs_register_bool_preference(dnet, "can_is_devicenet", "CAN is DeviceNet",
                                  "Take 11-bit CAN frames as DeviceNet without waiting for evidence in the traffic",
                                  &values.can_is_devicenet);
+  module_t* const servotrace = prefs_register_protocol(servotrace_protocol_id(), nullptr);
+  prefs_register_filename_preference(servotrace, "settings_file", "Settings file (servotrace.toml)",
+                                     "Names, profiles, parameters and limits, the same file the command line reads",
+                                     &values.settings_file, FALSE);
 }
 
 Carriers current_carriers() {
@@ -52,13 +67,16 @@ Carriers current_carriers() {
           static_cast<std::uint16_t>(user ? values.user_link_type : 0)};
 }
 
-Settings current_settings() {
-  Settings settings;
+replay::FileSettings current_settings() {
+  replay::FileSettings settings;
   const Carriers carriers = current_carriers();
-  settings.rtex.ethertype = carriers.ethertype;
-  settings.rtex.udp_port = carriers.udp_port;
-  settings.rtex.user_link_type = carriers.user_link_type;
-  settings.devicenet.assumed = chosen().can_is_devicenet != FALSE || can_is_decoded_as_devicenet();
+  const char* const file = chosen().settings_file;
+  const bool has_file = file != nullptr && *file != '\0' && read_file(file, settings);
+  Settings& decoder = settings.decoder;
+  if (!has_file || carriers.ethertype != kEthertype) decoder.rtex.ethertype = carriers.ethertype;
+  if (!has_file || carriers.udp_port != kUdpPort) decoder.rtex.udp_port = carriers.udp_port;
+  if (!has_file || carriers.user_link_type != 0) decoder.rtex.user_link_type = carriers.user_link_type;
+  if (chosen().can_is_devicenet != FALSE || can_is_decoded_as_devicenet()) decoder.devicenet.assumed = true;
   return settings;
 }
 

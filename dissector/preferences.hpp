@@ -2,14 +2,16 @@
 // What the user chose in Wireshark: a servotrace.toml, the carriers of RTEX, whether CAN is DeviceNet.
 #pragma once
 
-#include "decoder/pipeline/settings.hpp"
+#include "replay/settings/settings.hpp"
 
 namespace servotrace::plugin {
 
 void register_preferences();
 
-// The settings a file is dissected with: of the servotrace.toml, and the preferences above it.
-Settings current_settings();
+// The settings a file is dissected with: of the servotrace.toml, and above it every preference that is not at its
+// default. Read anew for each file, so that a reload takes a changed file. What is wrong with it is reported as
+// Wireshark reports errors, and the preferences alone hold.
+replay::FileSettings current_settings();
 
 // The numbers RTEX is looked for at; user_link_type 0: nowhere.
 struct Carriers {

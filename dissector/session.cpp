@@ -13,12 +13,14 @@ namespace servotrace::plugin {
 namespace {
 
 struct Session {
-  explicit Session(Settings given) : settings(std::move(given)), pipeline(settings) {}
-  Settings settings;
+  explicit Session(replay::FileSettings given)
+      : settings(std::move(given)), filter(settings.rules), pipeline(settings.decoder) {}
+  replay::FileSettings settings;
+  replay::RuleFilter filter;
   Pipeline pipeline;
   FrameStore store;
-  Dissection pushed;   // as the pipeline fills it
-  Dissection shown;    // as the store gives it back
+  Dissection pushed;                                                            // as the pipeline fills it
+  Dissection shown;                                                             // as the store gives it back
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> interfaces;  // section and number to dense number
   std::uint32_t last_number = 0;
   std::int64_t last_offset = -1;
@@ -112,8 +114,8 @@ Visit visit(packet_info* pinfo) {
   if (session() == nullptr) session() = std::make_unique<Session>(current_settings());
   Session& self = *session();
   // A frame that a read filter drops leaves its number to the next one, so the number alone does not tell them apart.
-  const bool is_new = pinfo->num > self.last_number ||
-                      (pinfo->num == self.last_number && pinfo->fd->file_off != self.last_offset);
+  const bool is_new =
+      pinfo->num > self.last_number || (pinfo->num == self.last_number && pinfo->fd->file_off != self.last_offset);
   if (!pinfo->fd->visited && is_new && !self.failed) {
     self.last_number = pinfo->num;
     self.last_offset = pinfo->fd->file_off;
@@ -149,35 +151,14 @@ std::uint32_t next_of_node(std::uint32_t number, const NodeRef& node) {
   return 0;
 }
 
-const char* node_text(wmem_allocator_t* pool, const NodeRef& node) {
+const Settings* session_settings() {
   const Session* const self = session().get();
-  const char* name = nullptr;
-  if (node.mac_id == kNoMacId) {
-    switch (node.bus.kind) {
-      case BusKind::kRing:
-        return node.protocol == Protocol::kRtex && node.place != 0
-                   ? wmem_strdup_printf(pool, "ring%u place %u", unsigned{node.bus.number}, unsigned{node.place})
-                   : wmem_strdup_printf(pool, "ring%u", unsigned{node.bus.number});
-      case BusKind::kCan:
-        return wmem_strdup_printf(pool, "can%u", node.bus.interface_id);
-      case BusKind::kNone:
-        break;
-    }
-    return "capture";
-  }
-  const bool is_axis = node.protocol == Protocol::kRtex;
-  if (self != nullptr) {
-    if (is_axis) {
-      const RtexAxisSettings* const axis = self->settings.axis(node.bus.number, node.mac_id);
-      if (axis != nullptr && !axis->name.empty()) name = axis->name.c_str();
-    } else {
-      const DevicenetNodeSettings* const entry = self->settings.node(node.mac_id);
-      if (entry != nullptr && !entry->name.empty()) name = entry->name.c_str();
-    }
-  }
-  const char* const kind = is_axis ? "axis" : "node";
-  if (name == nullptr) return wmem_strdup_printf(pool, "%s %d", kind, int{node.mac_id});
-  return wmem_strdup_printf(pool, "%s %d (%s)", kind, int{node.mac_id}, name);
+  return self == nullptr ? nullptr : &self->settings.decoder;
+}
+
+bool apply_rule_settings(Finding& finding) {
+  Session* const self = session().get();
+  return self == nullptr || self->filter.apply(finding);
 }
 
 void reset_session() { session().reset(); }

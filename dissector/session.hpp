@@ -6,6 +6,7 @@
 
 #include "decoder/findings/finding.hpp"
 #include "decoder/pipeline/dissection.hpp"
+#include "decoder/pipeline/settings.hpp"
 #include "dissector/store.hpp"
 #include "dissector/ws.hpp"
 
@@ -27,8 +28,10 @@ Visit visit(packet_info* pinfo);
 std::span<const FrameStore::Answer> answers_of(std::uint32_t number);
 std::uint32_t next_of_node(std::uint32_t number, const NodeRef& node);
 
-// Names of nodes ("axis 3 (X)"). The text lives in `pool`.
-const char* node_text(wmem_allocator_t* pool, const NodeRef& node);
+// What the file is dissected with; nullptr before its first frame.
+const Settings* session_settings();
+// Changes the severity of a finding where the settings say so. False: the settings hide it.
+bool apply_rule_settings(Finding& finding);
 
 // A new file, or the same once more with other settings: what is known is forgotten.
 void reset_session();

@@ -103,11 +103,8 @@ std::uint32_t FrameStore::text_id(std::string_view text) { return intern(text_id
 void FrameStore::add_answer(const Link& link, std::uint32_t number) {
   if (link.frame == 0 || link.frame >= number) return;
   const auto target = static_cast<std::uint32_t>(link.frame);
-  answer_rows_.push_back({.next = 0,
-                          .frame = number,
-                          .after_ns = link.after_ns,
-                          .node = node_id(link.node),
-                          .kind = link.kind});
+  answer_rows_.push_back(
+      {.next = 0, .frame = number, .after_ns = link.after_ns, .node = node_id(link.node), .kind = link.kind});
   const auto index = static_cast<std::uint32_t>(answer_rows_.size());
   AnswerEnds& ends = answer_ends_[target];
   if (ends.last != 0) answer_rows_[ends.last - 1].next = index;
@@ -138,7 +135,8 @@ void FrameStore::put(std::uint32_t number, const Dissection& dissection, Found f
     put_number(shape_, static_cast<std::uint64_t>(layout) + 1);
     put_number(shape_, segment.offset);
     put_number(shape_, segment.length);
-    put_number(shape_, static_cast<std::uint64_t>(segment.buffer) | static_cast<std::uint64_t>(segment.direction) << 1U |
+    put_number(shape_, static_cast<std::uint64_t>(segment.buffer) |
+                           static_cast<std::uint64_t>(segment.direction) << 1U |
                            static_cast<std::uint64_t>(segment.guessed) << 3U);
     put_number(shape_, node_id(segment.node));
   }

@@ -87,7 +87,7 @@ class FrameStore {
   std::vector<Blob> frames_;  // by frame number
   std::vector<AnswerRow> answer_rows_;
   std::unordered_map<std::uint32_t, AnswerEnds> answer_ends_;  // by the frame answered
-  Writer shape_;  // scratch
+  Writer shape_;                                               // scratch
   Writer values_;
   std::uint64_t unregistered_ = 0;
 };

@@ -4,6 +4,9 @@
 #include <string>
 
 #include "decoder/render/message.hpp"
+#include "decoder/render/node.hpp"
+#include "decoder/render/sentence.hpp"
+#include "decoder/render/value.hpp"
 #include "dissector/session.hpp"
 
 namespace servotrace::plugin {
@@ -20,28 +23,33 @@ const char* unit_text(wmem_allocator_t* pool, const Field& field, std::int64_t v
     if (unit.empty()) return "";
     return wmem_strdup_printf(pool, " %s", pool_text(pool, unit));
   }
-  int places = 0;
-  std::int64_t power = 1;
-  while (power < field.scale.denominator) {
-    power *= 10;
-    ++places;
+  std::string text = " (" + scaled_text(value, field.scale);
+  if (!unit.empty()) {
+    text += ' ';
+    text += unit;
   }
-  if (power != field.scale.denominator && places < 3) places = 3;
-  const double scaled = static_cast<double>(value) * field.scale.numerator / field.scale.denominator;
-  if (unit.empty()) return wmem_strdup_printf(pool, " (%.*f)", places, scaled);
-  return wmem_strdup_printf(pool, " (%.*f %s)", places, scaled, pool_text(pool, unit));
+  return pool_text(pool, text + ")");
+}
+
+const char* node_text(wmem_allocator_t* pool, const NodeRef& node) {
+  if (node.mac_id == kNoMacId) {
+    switch (node.bus.kind) {
+      case BusKind::kRing:
+        return wmem_strdup_printf(pool, "ring%u", unsigned{node.bus.number});
+      case BusKind::kCan:
+        return wmem_strdup_printf(pool, "can%u", node.bus.interface_id);
+      case BusKind::kNone:
+        break;
+    }
+    return "capture";
+  }
+  const Settings* const settings = session_settings();
+  return pool_text(
+      pool, servotrace::node_text(node, settings == nullptr ? std::string_view() : configured_name(*settings, node)));
 }
 
 const char* info_text(wmem_allocator_t* pool, const Dissection& dissection) {
-  std::string text;
-  const Layout* last = nullptr;
-  for (const Segment& segment : dissection.segments) {
-    if (segment.layout == last) continue;
-    last = segment.layout;
-    if (!text.empty()) text += ", ";
-    text += segment.layout->title;
-  }
-  return pool_text(pool, text);
+  return pool_text(pool, sentence(dissection, session_settings()));
 }
 
 }  // namespace servotrace::plugin

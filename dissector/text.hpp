@@ -14,11 +14,14 @@ const char* pool_text(wmem_allocator_t* pool, std::string_view text);
 
 const char* message_text(wmem_allocator_t* pool, const Finding& finding);
 
-// What stands behind a field's raw value: " (45.0 r/min)" where the row scales it, " r/min" where it has but a unit,
-// "" where it has none.
+// What stands behind a field's raw value: " (45 r/min)" where the row scales it, " r/min" where it has but a unit, ""
+// where it has none.
 const char* unit_text(wmem_allocator_t* pool, const Field& field, std::int64_t value);
 
-// The info column.
+// "axis 3 (X)", "ring0", "can1", "capture".
+const char* node_text(wmem_allocator_t* pool, const NodeRef& node);
+
+// The info column: a sentence. Empty where nothing was recognised.
 const char* info_text(wmem_allocator_t* pool, const Dissection& dissection);
 
 }  // namespace servotrace::plugin

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "dissector/tree.hpp"
 
+#include <type_traits>
+
 #include "decoder/core/slot.hpp"
 #include "decoder/findings/catalogue.hpp"
 #include "dissector/fields.hpp"
@@ -54,8 +56,8 @@ void draw_field(const Canvas& canvas, proto_tree* tree, const Segment& segment, 
   const bool is_number = field.kind != Kind::kBytes && field.kind != Kind::kText;
   const std::int64_t value = is_number ? read(slot_of(field), bytes) : 0;
   if (field.reserved && value == 0) return;
-  const unsigned encoding = field.kind == Kind::kText     ? unsigned{ENC_ASCII} | unsigned{ENC_NA}
-                            : field.kind == Kind::kBytes  ? unsigned{ENC_NA}
+  const unsigned encoding = field.kind == Kind::kText        ? unsigned{ENC_ASCII} | unsigned{ENC_NA}
+                            : field.kind == Kind::kBytes     ? unsigned{ENC_NA}
                             : field.order == ByteOrder::kBig ? unsigned{ENC_BIG_ENDIAN}
                                                              : unsigned{ENC_LITTLE_ENDIAN};
   proto_item* const item =
@@ -116,9 +118,9 @@ std::size_t draw_node(Canvas& canvas, proto_tree* parent, std::size_t index, std
                              [&first](const Segment& segment) { return same_node(segment.node, first.node); });
   next = next < end ? next : end;
   proto_item* item = nullptr;
-  proto_tree* const tree = proto_tree_add_subtree_format(
-      parent, canvas.frame->tvb, static_cast<int>(range.offset), static_cast<int>(range.length), subtrees().node, &item,
-      "%s", node_text(canvas.pinfo->pool, first.node));
+  proto_tree* const tree = proto_tree_add_subtree_format(parent, canvas.frame->tvb, static_cast<int>(range.offset),
+                                                         static_cast<int>(range.length), subtrees().node, &item, "%s",
+                                                         node_text(canvas.pinfo->pool, first.node));
   canvas.nodes.push_back({first.node, tree, item});
   for (std::size_t i = index; i < next; ++i) draw_segment(canvas, tree, i);
   return next;
@@ -130,9 +132,8 @@ void draw_protocols(Canvas& canvas) {
   while (index < dissection.segments.size()) {
     const std::string_view protocol = dissection.segments[index].layout->protocol;
     ByteRange range;
-    const std::size_t end = run_end(dissection, index, range, [protocol](const Segment& segment) {
-      return segment.layout->protocol == protocol;
-    });
+    const std::size_t end = run_end(
+        dissection, index, range, [protocol](const Segment& segment) { return segment.layout->protocol == protocol; });
     const int id = protocol_id(protocol);
     proto_item* const item = proto_tree_add_item(canvas.tree, id, canvas.frame->tvb, static_cast<int>(range.offset),
                                                  static_cast<int>(range.length), ENC_NA);
@@ -185,8 +186,7 @@ void draw_derived(const Canvas& canvas, const Derived& derived) {
 
 void draw_frame_link(const Canvas& canvas, proto_tree* tree, int id, std::uint64_t number) {
   if (number == 0) return;
-  proto_item_set_generated(
-      proto_tree_add_uint(tree, id, canvas.frame->tvb, 0, 0, static_cast<std::uint32_t>(number)));
+  proto_item_set_generated(proto_tree_add_uint(tree, id, canvas.frame->tvb, 0, 0, static_cast<std::uint32_t>(number)));
 }
 
 void draw_time(const Canvas& canvas, proto_tree* tree, int id, DurationNs after_ns) {
@@ -325,27 +325,32 @@ void draw_finding(Canvas& canvas, proto_tree* parent, const Finding& finding) {
   expert_add_info_format(canvas.pinfo, target, expert_of(finding.rule, finding.severity), "%s %s: %s", id, node, text);
 }
 
-bool is_shown(const Finding& finding) { return rule_row(finding.rule).hosts != Hosts::kOfflineOnly; }
+// False for what is not shown: rules that need the whole file, and what the settings hide. Else `finding` is as the
+// settings have it.
+bool is_shown(Finding& finding) {
+  return rule_row(finding.rule).hosts != Hosts::kOfflineOnly && apply_rule_settings(finding);
+}
 
 void draw_findings(Canvas& canvas) {
   std::uint32_t shown = 0;
-  for (const Finding& finding : canvas.frame->findings) shown += is_shown(finding) ? 1U : 0U;
+  for (Finding finding : canvas.frame->findings) shown += is_shown(finding) ? 1U : 0U;
   if (shown == 0) return;
   proto_tree* tree = nullptr;
   if (canvas.tree != nullptr) {
-    proto_item* const item = proto_tree_add_protocol_format(canvas.tree, servotrace_protocol_id(), canvas.frame->tvb, 0,
-                                                            0, "servotrace, %u finding%s", shown, shown == 1 ? "" : "s");
+    proto_item* const item =
+        proto_tree_add_protocol_format(canvas.tree, servotrace_protocol_id(), canvas.frame->tvb, 0, 0,
+                                       "servotrace, %u finding%s", shown, shown == 1 ? "" : "s");
     tree = proto_item_add_subtree(item, subtrees().findings);
   }
-  for (const Finding& finding : canvas.frame->findings) {
+  for (Finding finding : canvas.frame->findings) {
     if (is_shown(finding)) draw_finding(canvas, tree, finding);
   }
 }
 
 void draw_columns(const Canvas& canvas) {
   const Dissection& dissection = *canvas.frame->dissection;
-  if (dissection.protocol == Protocol::kNone) return;
   column_info* const columns = canvas.pinfo->cinfo;
+  if (dissection.protocol == Protocol::kNone || columns == nullptr || !col_get_writable(columns, COL_INFO)) return;
   std::string_view protocol = dissection.protocol == Protocol::kRtex ? "rtex" : "dnet";
   for (const Segment& segment : dissection.segments) {
     if (segment.layout->protocol != "rtex" && segment.layout->protocol != "dnet") protocol = segment.layout->protocol;
@@ -354,6 +359,8 @@ void draw_columns(const Canvas& canvas) {
   const char* const info = info_text(canvas.pinfo->pool, dissection);
   if (*info != '\0') col_add_str(columns, COL_INFO, info);
 }
+
+static_assert(std::is_trivially_destructible_v<Canvas>);
 
 }  // namespace
 
@@ -367,8 +374,7 @@ void draw(packet_info* pinfo, proto_tree* tree, const Visit& frame) {
     const Bytes reassembled = frame.dissection->reassembled;
     if (!reassembled.empty()) {
       const auto size = static_cast<std::uint32_t>(reassembled.size());
-      canvas.reassembled =
-          tvb_new_child_real_data(frame.tvb, reassembled.data(), size, static_cast<int>(size));
+      canvas.reassembled = tvb_new_child_real_data(frame.tvb, reassembled.data(), size, static_cast<int>(size));
       add_new_data_source(pinfo, canvas.reassembled, "Reassembled message");
     }
     draw_protocols(canvas);

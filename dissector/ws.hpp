@@ -19,6 +19,7 @@
 #include <wiretap/pcap-encap.h>
 #include <wiretap/wtap.h>
 #include <ws_version.h>
+#include <wsutil/report_message.h>
 
 #if !defined(WIRESHARK_VERSION_MAJOR) || !defined(WIRESHARK_VERSION_MINOR)
 #error "ws_version.h names no Wireshark version"
