@@ -11,7 +11,8 @@ namespace {
 std::string argument_text(const Argument& argument, std::int64_t value) {
   const ValueName* name = find_value(argument.names, value);
   const auto unsigned32 = static_cast<std::uint32_t>(value);
-  const auto with_name = [name](std::string number) {
+  const auto with_name = [name, value](std::string number) {
+    if (name != nullptr && value < 0) return std::string(name->name);  // no number of the traffic: said in words
     return name == nullptr ? number : fmt::format("{} ({})", number, name->name);
   };
   switch (argument.format) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "decoder/core/layout_check.hpp"
+#include "decoder/profiles/yaskawa_ns310/alarms.hpp"
 #include "decoder/profiles/yaskawa_ns310/codes.hpp"
 
 namespace servotrace::ns310 {

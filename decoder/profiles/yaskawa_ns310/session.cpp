@@ -1,8 +1,80 @@
 // SPDX-License-Identifier: MIT
+#include "decoder/profiles/yaskawa_ns310/session.hpp"
+
 #include "decoder/profiles/yaskawa_ns310/profile.hpp"
 
 namespace servotrace::ns310 {
 
-std::unique_ptr<DriveSession> make_session(const Settings&, const NodeRef&, OwnerId, bool) { return nullptr; }
+void Session::on_command(const Context& context, const Message& message) {
+  if (message.bytes.size() < kMessageSize) return;
+  add(context, message, kCommand, 0, Direction::kCommand);
+  const Command command = read_command(message.bytes, context.frame.number, context.frame.time_ns);
+  add(context, message, command_data(command.code), kDataOffset, Direction::kCommand);
+  expire(context);
+  command_clean_ = true;
+  judge_data(context, message, command);
+  judge_levels(context, message, command);
+  judge_start(context, message, command);
+  judge_unchanged_start(context, message, command);
+  if (!command.valid_data) {
+    valid_wait_.end();
+  } else if (!command_ || !command_->valid_data) {
+    valid_wait_.begin(command.frame, command.time_ns);
+  }
+  command_ = command;
+}
+
+void Session::on_response(const Context& context, const Message& message) {
+  if (message.bytes.size() < kMessageSize) return;
+  add(context, message, kResponse, 0, Direction::kResponse);
+  const Response response = read_response(message.bytes, context.frame.number, context.frame.time_ns);
+  add(context, message, response_data(response.code), kDataOffset, Direction::kResponse);
+  track_operation(response);
+  judge_echoes(context, message, response);
+  judge_reports(context, message, response);
+  response_ = response;
+  expire(context);
+}
+
+void Session::on_explicit(const Context& context, const ExplicitExchange&) { expire(context); }
+
+void Session::on_time(const Context& context) { expire(context); }
+
+void Session::on_start(const Context&) {
+  on_gap();
+  reported_.known = false;
+  start_seen_ = true;
+  homed_ = false;
+}
+
+void Session::on_gap() {
+  command_.reset();
+  response_.reset();
+  valid_wait_.end();
+  start_wait_.end();
+  edge_wait_.end();
+  continuous_wait_.end();
+  error_cleared_ = true;
+  started_.reset();
+  rotation_.reset();
+  operation_ = Operation::kUnknown;
+  candidate_ = Operation::kUnknown;
+  position_.reset();
+}
+
+void Session::on_finish(const Context& context) {
+  if (pending_alarm_.active) issue_alarm(context, kCodeNotRead, {});
+  if (pending_block_fault_.active) issue_block_fault(context, kCodeNotRead);
+}
+
+void Session::summarise(NodeSummary&, std::vector<Statistic>& statistics) const {
+  append_statistic(statistics, "valid data echo", node(), valid_echo_);
+  append_statistic(statistics, "start echo", node(), start_echo_);
+}
+
+std::unique_ptr<DriveSession> make_session(const Settings& settings, const NodeRef& node, OwnerId owner,
+                                           bool decode_only) {
+  return std::make_unique<Session>(settings, node, owner, decode_only);
+}
 
 }  // namespace servotrace::ns310
