@@ -111,14 +111,14 @@ int A5nDrive::check_mode(int cyclic) {
   const bool small_cycle = timing_.cycles_per_second >= 6'000;
   if (config_.full_closed && (cyclic == kCv || cyclic == kCt || small_cycle)) return 0x002E;
   if (small_cycle && (cyclic == kPp || config_.wide)) return 0x002E;
-  if (mode_ == kNop || cyclic == mode_) return 0;
+  if (mode_ == kNoOperation || cyclic == mode_) return 0;
   if (since_mode_change_ns_ < kModeChangeLimit || main_.busy || profile_is_exclusive()) return 0x002E;
   return 0;
 }
 
 void A5nDrive::enter_mode(int cyclic) {
   if (cyclic == mode_) return;
-  if (mode_ != kNop) since_mode_change_ns_ = 0;
+  if (mode_ != kNoOperation) since_mode_change_ns_ = 0;
   mode_ = cyclic;
   profile_ = {};
   cp_counter_ = -1;
@@ -134,7 +134,7 @@ void A5nDrive::process(Bytes command) {
   }
   const int cyclic = static_cast<int>(get(command::kCyclic, command));
   header_error_ = check_header(command);
-  sub_chk_error_ = config_.wide && cyclic != kNop && !flag(command::kSubChk, command);
+  sub_chk_error_ = config_.wide && cyclic != kNoOperation && !flag(command::kSubChk, command);
   if (header_error_ != 0 || sub_chk_error_) {
     const DurationNs running_ns = ++header_errors_running_ * step_ns_;
     if (running_ns >= kHeaderErrorLimit && since_cyclic_ns_ >= config_.ready_ns)
@@ -142,7 +142,7 @@ void A5nDrive::process(Bytes command) {
   } else {
     header_errors_running_ = 0;
   }
-  const bool usable = header_error_ == 0 && !sub_chk_error_ && cyclic != kNop;
+  const bool usable = header_error_ == 0 && !sub_chk_error_ && cyclic != kNoOperation;
   if (usable) {
     if (since_cyclic_ns_ < 0) since_cyclic_ns_ = 0;
     header_error_ = check_mode(cyclic);
@@ -158,8 +158,8 @@ void A5nDrive::process(Bytes command) {
       if (!hold_echo_) process_main(command, cyclic);
       if (config_.wide) process_sub(command);
     }
-  } else if (header_error_ == 0 && cyclic == kNop) {
-    main_.code = kNormal;
+  } else if (header_error_ == 0 && cyclic == kNoOperation) {
+    main_.code = kNormalCommand;
     main_.error = 0;
   }
   run_channel(main_);
@@ -170,7 +170,7 @@ void A5nDrive::process(Bytes command) {
 
 void A5nDrive::update_servo(bool servo_on) {
   const bool ready = main_power_ && alarm_.main == 0 && since_cyclic_ns_ >= config_.ready_ns;
-  if (servo_on && main_.busy && main_.run_code == kReset) raise_alarm({27, 7});
+  if (servo_on && main_.busy && main_.run_code == kResetCommand) raise_alarm({27, 7});
   if (!servo_on || !ready) {
     servo_active_ = false;
     servo_on_left_ns_ = config_.servo_on_ns;
@@ -346,7 +346,7 @@ void A5nDrive::watch_triggers(std::int64_t before) {
       home_at(0);
     }
   }
-  if (main_.busy && main_.run_code == kHoming && main_.run_type >= 0x11 && main_.run_type <= 0x1D && homing_ctrl_) {
+  if (main_.busy && main_.run_code == kHomingCommand && main_.run_type >= 0x11 && main_.run_type <= 0x1D && homing_ctrl_) {
     // 11h Z phase; then pairs of rising and falling: HOME, POT, NOT, EXT1 to EXT3 (6-5-1).
     static constexpr unsigned kBits[] = {2, 1, 0, 3, 4, 5};
     const int pair = main_.run_type - 0x12;

@@ -186,7 +186,7 @@ class A5nDrive {
   int header_error_ = 0;  // 0011h, 0012h, 0021h, 002Eh
   bool sub_chk_error_ = false;
   int header_errors_running_ = 0;
-  int mode_ = kNop;  // cyclic code in force
+  int mode_ = kNoOperation;  // cyclic code in force
   DurationNs since_mode_change_ns_ = 0;
   DurationNs since_cyclic_ns_ = -1;  // since the first cyclic command, -1 before it
   DriveChannel main_;

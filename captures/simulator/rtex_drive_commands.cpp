@@ -26,12 +26,12 @@ constexpr bool is_initialising(int type) { return (type >= 0x11 && type <= 0x1D)
 
 // 7-7-1: where Command_Data3 is Setting_Data.
 constexpr bool takes_setting(int code, int type) {
-  return code == kProfile || (code == kHoming && (type == 0x21 || type == 0x22)) ||
-         (code == kParameter && type == 0x011);
+  return code == kProfileCommand || (code == kHomingCommand && (type == 0x21 || type == 0x22)) ||
+         (code == kParameterCommand && type == 0x011);
 }
 
 constexpr bool is_supported(int code) {
-  return code <= kSystemId || (code >= kHoming && code <= kProfile) || code == kMonitor;
+  return code <= kSystemIdCommand || (code >= kHomingCommand && code <= kProfileCommand) || code == kMonitorCommand;
 }
 
 constexpr bool is_known_latch_source(int source) { return source <= 3 || (source >= 9 && source <= 11); }
@@ -66,13 +66,13 @@ void A5nDrive::process_main(Bytes command, int cyclic) {
   DriveChannel& channel = main_;
   const int code = static_cast<int>(get(command::kNonCyclic, command));
   // Homing and profile keep bits 3-0 of byte 9 for themselves.
-  const int type = static_cast<int>(get(command::kTypeCode, command)) & (code == kHoming || code == kProfile ? 0xFF : 0xFFF);
+  const int type = static_cast<int>(get(command::kTypeCode, command)) & (code == kHomingCommand || code == kProfileCommand ? 0xFF : 0xFFF);
   const int index = static_cast<int>(get(command::kIndex, command));
   const auto data3 = static_cast<std::int32_t>(get(command::kData3, command));
   const bool setting = takes_setting(code, type);
   const bool code_changed = code != channel.code;
   const bool arguments_changed =
-      code != kNormal && !code_changed &&
+      code != kNormalCommand && !code_changed &&
       (type != channel.type || index != channel.index || (setting && data3 != channel.setting));
   const int previous = channel.code;
   if (code_changed) leave_command(channel, code);
@@ -82,13 +82,13 @@ void A5nDrive::process_main(Bytes command, int cyclic) {
   channel.index = index;
   channel.setting = data3;
   if (in_reset_) return;
-  if (code == kNormal) {
+  if (code == kNormalCommand) {
     channel.error = data3 != 0 && parameter(7, 35) == 0 ? 0x0032 : 0;
     channel.executed = false;
     return;
   }
-  const bool from_standard = code_changed && previous == kNormal;
-  const bool extended = extend_mode() && code != kProfile && (code_changed || arguments_changed);
+  const bool from_standard = code_changed && previous == kNormalCommand;
+  const bool extended = extend_mode() && code != kProfileCommand && (code_changed || arguments_changed);
   if (from_standard || extended) {
     channel.executed = false;
     channel.error = channel.busy ? 0x0101 : check_command(channel, cyclic, false, data3);
@@ -102,7 +102,7 @@ void A5nDrive::process_main(Bytes command, int cyclic) {
     channel.error = 0;
     return;
   }
-  if (code == kProfile && channel.executed && profile_runs()) {
+  if (code == kProfileCommand && channel.executed && profile_runs()) {
     if (type != old_type) {
       channel.error = 0x0104;
       raise_alarm({91, 1});
@@ -121,15 +121,15 @@ void A5nDrive::process_sub(Bytes command) {
   const int type = static_cast<int>(get(command::kSubTypeCode, command));
   const int index = static_cast<int>(get(command::kSubIndex, command));
   const bool code_changed = code != channel.code;
-  const bool arguments_changed = code != kNormal && (type != channel.type || index != channel.index);
-  const bool from_standard = code_changed && channel.code == kNormal;
+  const bool arguments_changed = code != kNormalCommand && (type != channel.type || index != channel.index);
+  const bool from_standard = code_changed && channel.code == kNormalCommand;
   const bool extended = extend_mode() && (code_changed || arguments_changed);
   channel.code = code;
   channel.type = type;
   channel.index = index;
   const bool feedforward_wrong = (get(command::kSubData2, command) != 0 && parameter(7, 36) == 0) ||
                                  (get(command::kSubData3, command) != 0 && parameter(7, 37) == 0);
-  if (code == kNormal) {
+  if (code == kNormalCommand) {
     channel.error = feedforward_wrong ? 0x0034 : 0;
     channel.executed = false;
   } else if (from_standard || extended) {
@@ -146,24 +146,24 @@ void A5nDrive::process_sub(Bytes command) {
 int A5nDrive::check_command(DriveChannel& channel, int cyclic, bool sub, std::int32_t data3) {
   const int code = channel.code;
   if (!is_supported(code)) return 0x0022;
-  if (sub && code != kSystemId && code != kMonitor) return 0x0022;
-  if (code == kProfile && cyclic != kPp) return 0x0022;
+  if (sub && code != kSystemIdCommand && code != kMonitorCommand) return 0x0022;
+  if (code == kProfileCommand && cyclic != kPp) return 0x0022;
   if (!sub && data3 != 0 && parameter(7, 35) == 0 && !takes_setting(code, channel.type)) return 0x0032;
   switch (code) {
-    case kReset:
+    case kResetCommand:
       if (channel.type != 0x001 && channel.type != 0x011) return 0x0031;
       if (channel.index != 0) return 0x0032;
       return channel.type == 0x011 && servo_active_ ? 0x0045 : 0;
-    case kSystemId:
+    case kSystemIdCommand:
       if (system_text(channel.type) == "?") return 0x0031;
       return sub && channel.type > 0x34 ? 0x0031 : 0;
-    case kHoming:
+    case kHomingCommand:
       return check_homing(channel, cyclic);
-    case kAlarm:
+    case kAlarmCommand:
       return check_alarm(channel);
-    case kParameter:
+    case kParameterCommand:
       return check_parameter(channel);
-    case kProfile:
+    case kProfileCommand:
       return check_profile(channel);
     default:
       return 0;
@@ -265,21 +265,21 @@ void A5nDrive::start_command(DriveChannel& channel, Bytes command) {
   channel.wng = std::exchange(next_wng_, false);
   channel.busy_ns = 0;
   switch (channel.code) {
-    case kReset:
+    case kResetCommand:
       if (channel.type == 0x011) channel.busy_ns = kValidationNs;
       break;
-    case kHoming:
+    case kHomingCommand:
       start_homing(channel);
       if (channel.type == 0x31) channel.busy_ns = kMultiTurnNs;
       break;
-    case kAlarm:
+    case kAlarmCommand:
       if (channel.type == 0x001 || channel.type == 0x011) channel.busy_ns = kAlarmClearNs;
       break;
-    case kParameter:
+    case kParameterCommand:
       if (channel.type == 0x011) channel.busy_ns = kParameterWriteNs;
       if (channel.type == 0x081 || channel.type == 0x101) channel.busy_ns = kEepromWriteNs;
       break;
-    case kProfile:
+    case kProfileCommand:
       start_profile(channel, command);
       break;
     default:
@@ -287,7 +287,7 @@ void A5nDrive::start_command(DriveChannel& channel, Bytes command) {
   }
   if (next_busy_ns_) channel.busy_ns = *next_busy_ns_;
   next_busy_ns_.reset();
-  const bool waits_for_trigger = channel.code == kHoming && channel.type >= 0x11 && channel.type <= 0x1D;
+  const bool waits_for_trigger = channel.code == kHomingCommand && channel.type >= 0x11 && channel.type <= 0x1D;
   channel.busy = waits_for_trigger || channel.busy_ns > 0;
   if (!channel.busy) finish_command(channel);
 }
@@ -322,10 +322,10 @@ void A5nDrive::start_profile(DriveChannel& channel, Bytes command) {
 }
 
 void A5nDrive::leave_command(const DriveChannel& channel, int next_code) {
-  if (channel.code == kReset && channel.type == 0x001 && channel.executed && next_code == kNormal) in_reset_ = true;
-  if (channel.code == kHoming) {
+  if (channel.code == kResetCommand && channel.type == 0x001 && channel.executed && next_code == kNormalCommand) in_reset_ = true;
+  if (channel.code == kHomingCommand) {
     homing_lock_ = false;
-    if (main_.busy && main_.run_code == kHoming && main_.run_type >= 0x11 && main_.run_type <= 0x1D) main_.busy = false;
+    if (main_.busy && main_.run_code == kHomingCommand && main_.run_type >= 0x11 && main_.run_type <= 0x1D) main_.busy = false;
   }
 }
 
@@ -342,7 +342,7 @@ void A5nDrive::finish_command(DriveChannel& channel) {
   if (channel.err) return;
   const int type = channel.run_type;
   switch (channel.run_code) {
-    case kReset:
+    case kResetCommand:
       if (type == 0x011) {
         offset_ += config_.absolute ? 0 : motor_.position;
         if (!config_.absolute) motor_.position = command_ = 0;
@@ -350,7 +350,7 @@ void A5nDrive::finish_command(DriveChannel& channel) {
         latches_ = {};
       }
       break;
-    case kHoming:
+    case kHomingCommand:
       if (type == 0x21) {
         offset_ += motor_.position - std::int64_t{channel.run_setting} * kMicro;
         motor_.position = command_ = cp_from_ = cp_to_ = std::int64_t{channel.run_setting} * kMicro;
@@ -366,14 +366,14 @@ void A5nDrive::finish_command(DriveChannel& channel) {
         homing_lock_ = type == 0x21 || type == 0x22;
       }
       break;
-    case kAlarm:
+    case kAlarmCommand:
       if (type == 0x001) {
         warning_ = 0;
         if (can_clear(alarm_)) alarm_ = {};
       }
       if (type == 0x011) history_.clear();
       break;
-    case kParameter: {
+    case kParameterCommand: {
       if (type != 0x011) break;
       std::int32_t value = channel.run_setting;
       if (!is_32_bit(channel.run_index)) value = std::clamp(value, -32'768, 32'767);
@@ -475,7 +475,7 @@ std::int32_t A5nDrive::command_result(const DriveChannel& channel) const {
     return alarm.main | (with_sub ? alarm.sub << 8 : 0);
   };
   switch (channel.run_code) {
-    case kSystemId: {
+    case kSystemIdCommand: {
       const std::string text = system_text(channel.run_type);
       std::uint32_t word = 0;
       for (unsigned i = 0; i < 4; ++i) {
@@ -484,25 +484,25 @@ std::int32_t A5nDrive::command_result(const DriveChannel& channel) const {
       }
       return static_cast<std::int32_t>(word);
     }
-    case kHoming:
+    case kHomingCommand:
       if (is_latch(channel.run_type)) return monitor(channel.run_index >> 8);
       return channel.run_type == 0x21 || channel.run_type == 0x22 ? channel.run_setting : 0;
-    case kAlarm:
+    case kAlarmCommand:
       if (channel.run_type == 0x002) return alarm_.main == 0 && channel.run_index == 0 ? 0 : attribute_of_alarm(channel);
       if (channel.run_type == 0x000 && channel.run_index > 0) {
         const auto place = static_cast<std::size_t>(channel.run_index - 1);
         return place < history_.size() ? code_of(history_[place]) : 0;
       }
       return code_of(alarm_) | warning_ << 16;
-    case kParameter:
+    case kParameterCommand:
       if (channel.run_type == 0x010 || channel.run_type == 0x011)
         return parameter(static_cast<unsigned>(channel.run_index) >> 8U, static_cast<unsigned>(channel.run_index) & 0xFFU);
       if (channel.run_type == 0x030) return channel.run_index >> 8 == 8 ? kParametersInClass8 : 0;
       if (channel.run_type == 0x040) return attribute_of_parameter(channel.run_index);
       return 0;
-    case kProfile:
+    case kProfileCommand:
       return monitor(channel.run_index >> 8);
-    case kMonitor:
+    case kMonitorCommand:
       return monitor(channel.run_type);
     default:
       return 0;
@@ -541,18 +541,18 @@ void A5nDrive::respond_main(MutableBytes response) const {
     put(response::kErrorCode, response, error);
     return;
   }
-  if (channel.code == kNormal || sub_chk_error_) {
+  if (channel.code == kNormalCommand || sub_chk_error_) {
     const int second = parameter(7, 30);
     const int third = parameter(7, 31);
     put(response::kData2, response, monitor(second == 0 ? 0x05 : second));
     put(response::kData3, response, monitor(third == 0 ? 0x06 : third));
     return;
   }
-  put(response::kTypeLow, response, channel.run_type & 0xFF);
-  put(response::kTypeHigh, response, channel.run_type >> 8);
-  if (channel.run_code == kHoming) {
-    put(response::kTypeHigh, response, (latches_[0].complete ? 1 : 0) | (latches_[1].complete ? 2 : 0));
-  } else if (channel.run_code == kProfile) {
+  put(response::kType, response, channel.run_type);
+  if (channel.run_code == kHomingCommand) {
+    put(response::kLatchComp1, response, latches_[0].complete ? 1 : 0);
+    put(response::kLatchComp2, response, latches_[1].complete ? 1 : 0);
+  } else if (channel.run_code == kProfileCommand) {
     const std::int64_t left = std::abs(profile_.target - command_);
     const bool positioning = channel.run_type >= 0x10 && channel.run_type <= 0x13;
     const bool near = positioning && left <= std::int64_t{parameter(7, 15, 100)} * kMicro;
@@ -560,14 +560,15 @@ void A5nDrive::respond_main(MutableBytes response) const {
     const bool beyond_positive = (limits & 1) == 0 && actual_position() > parameter(7, 11, INT32_MAX);
     const bool beyond_negative = (limits & 2) == 0 && actual_position() < parameter(7, 12, INT32_MIN);
     const bool swapped = (parameter(7, 23) & 0x80) != 0;
-    put(response::kTypeHigh, response,
-        (latches_[0].complete ? 1 : 0) | (near ? 2 : 0) | (beyond_positive ? (swapped ? 4 : 8) : 0) |
-            (beyond_negative ? (swapped ? 8 : 4) : 0));
+    put(response::kLatchComp1, response, latches_[0].complete ? 1 : 0);
+    put(response::kNear, response, near ? 1 : 0);
+    put(swapped ? response::kPslSwapped : response::kPsl, response, beyond_positive ? 1 : 0);
+    put(swapped ? response::kNslSwapped : response::kNsl, response, beyond_negative ? 1 : 0);
   }
   put(response::kBusy, response, channel.busy ? 1 : 0);
   put(response::kWng, response, !channel.busy && channel.wng ? 1 : 0);
   put(response::kErr, response, !channel.busy && channel.err ? 1 : 0);
-  const bool present_alarm = channel.run_code == kAlarm && channel.run_type == 0x002 && channel.run_index == 0;
+  const bool present_alarm = channel.run_code == kAlarmCommand && channel.run_type == 0x002 && channel.run_index == 0;
   put(response::kIndexEcho, response, present_alarm ? alarm_.main | alarm_.sub << 8 : channel.run_index);
   put(response::kData3, response, command_result(channel));
 }
@@ -586,10 +587,10 @@ void A5nDrive::respond_sub(MutableBytes response) const {
   const int error = sub_chk_error_ ? 0x0012 : sub_.error;
   if (error != 0) {
     put(response::kSubCmdError, response, 1);
-    put(response::kSubIndexEcho, response, error);
+    put(response::kSubErrorCode, response, error);
     return;
   }
-  if (sub_.code == kNormal) {
+  if (sub_.code == kNormalCommand) {
     const int first = parameter(7, 32);
     put(response::kSubData1, response, first == 0 ? 0 : monitor(first));
     return;

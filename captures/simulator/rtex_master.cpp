@@ -12,7 +12,7 @@ constexpr std::int64_t kMilli = 1000;
 constexpr DurationNs kProfileStart = 20 * kMillisecondNs;  // a profile that has not started by then has nothing to do
 
 constexpr bool is_homing_with_reference(const Request& request) {
-  return !request.sub && request.code == kHoming && request.type < 0x50;
+  return !request.sub && request.code == kHomingCommand && request.type < 0x50;
 }
 
 }  // namespace
@@ -34,16 +34,16 @@ void AxisMaster::observe(Bytes response) {
 }
 
 bool AxisMaster::echoes_reset() const {
-  return seen_value(response::kCodeEcho) == (cyclic_ << 4 | kReset) && !seen(response::kCmdError);
+  return seen_value(response::kCodeEcho) == (cyclic_ << 4 | kResetCommand) && !seen(response::kCmdError);
 }
 
 const Step* AxisMaster::overdue(DurationNs now_ns) const {
-  if (!current_ || !started_ || current_->what == Do::kWait || current_->what == Do::kNop) return nullptr;
+  if (!current_ || !started_ || current_->what == Do::kWait || current_->what == Do::kSendNop) return nullptr;
   return now_ns - started_ns_ > current_->give_up_ns ? &*current_ : nullptr;
 }
 
 void AxisMaster::start_again() {
-  code_ = sub_code_ = sent_code_ = sent_sub_code_ = kNormal;
+  code_ = sub_code_ = sent_code_ = sent_sub_code_ = kNormalCommand;
   control_ = {};
   has_response_ = false;
   moving_ = false;
@@ -126,7 +126,7 @@ void AxisMaster::start(const Step& step, RingState&) {
       level_step_ = updates == 0 ? 0 : std::max<std::int64_t>(std::abs(level_goal_ - level_) / updates, 1);
       break;
     }
-    case Do::kProfile:
+    case Do::kStartProfile:
     case Do::kCommand:
       start_request(step);
       break;
@@ -138,7 +138,7 @@ void AxisMaster::start(const Step& step, RingState&) {
     case Do::kControl:
       for (const ControlBit& control : step.control) put(control.bit, control_, control.value ? 1 : 0);
       break;
-    case Do::kNop:
+    case Do::kSendNop:
       nop_ = true;
       break;
     case Do::kDrive:
@@ -160,9 +160,9 @@ void AxisMaster::start_request(const Step& step) {
   if (step.busy_ns) drive_.set_busy(*step.busy_ns);
   if (step.err || step.wng) drive_.fail_next(step.err, step.wng);
   const int sent = request.sub ? sent_sub_code_ : sent_code_;
-  phase_ = sent == kNormal || chained_ ? Phase::kHeld : Phase::kRestoring;
+  phase_ = sent == kNormalCommand || chained_ ? Phase::kHeld : Phase::kRestoring;
   chained_ = false;
-  if (phase_ == Phase::kRestoring) code(request.sub) = kNormal;
+  if (phase_ == Phase::kRestoring) code(request.sub) = kNormalCommand;
   if (!request.sub && phase_ == Phase::kRestoring) data3_ = 0;
   phase_cycle_ = -1;
   seen_running_ = false;
@@ -177,9 +177,9 @@ bool AxisMaster::is_answered(const Request& request) const {
   }
   if (seen_value(response::kCodeEcho) != (cyclic_ << 4 | request.code)) return false;
   if (seen(response::kCmdError)) return true;
-  const bool low_only = request.code == kHoming || request.code == kProfile;
-  const std::int64_t type = seen_value(response::kTypeLow) | (low_only ? 0 : seen_value(response::kTypeHigh) << 8);
-  const bool any_index = request.code == kAlarm && request.type == 0x002 && request.index == 0;
+  const bool low_only = request.code == kHomingCommand || request.code == kProfileCommand;
+  const std::int64_t type = seen_value(low_only ? response::kTypeLow : response::kType);
+  const bool any_index = request.code == kAlarmCommand && request.type == 0x002 && request.index == 0;
   if (type != request.type || seen(response::kBusy)) return false;
   if (!any_index && seen_value(response::kIndexEcho) != request.index) return false;
   return !is_homing_with_reference(request) || seen(response::kHomingComplete);
@@ -188,7 +188,7 @@ bool AxisMaster::is_answered(const Request& request) const {
 // True when the handshake is over (3-3-4).
 bool AxisMaster::run_request(const Step& step, const RingState& ring) {
   const Request& request = step.request;
-  const bool is_profile = step.what == Do::kProfile;
+  const bool is_profile = step.what == Do::kStartProfile;
   if (phase_ == Phase::kRestoring) {
     phase_ = Phase::kHeld;
     return false;
@@ -204,7 +204,7 @@ bool AxisMaster::run_request(const Step& step, const RingState& ring) {
       cyclic_ = kPp;
       mode_changed_ns_ = ring.now_ns;
     }
-    if (request.code == kHoming && step.speed != 0) {
+    if (request.code == kHomingCommand && step.speed != 0) {
       drift_ = step.speed;
       rate_ = step.rate;
     }
@@ -257,12 +257,12 @@ bool AxisMaster::run_request(const Step& step, const RingState& ring) {
     chained_ = request.chain;
     if (request.chain) return true;
     drift_ = 0;
-    code(request.sub) = kNormal;
+    code(request.sub) = kNormalCommand;
     if (!request.sub) data3_ = 0;
     phase_ = Phase::kSettling;
     return !request.settle;
   }
-  const bool standard = request.sub ? seen_value(response::kSubCodeEcho) == kNormal
+  const bool standard = request.sub ? seen_value(response::kSubCodeEcho) == kNormalCommand
                                     : seen_value(response::kCodeEcho) == cyclic_ << 4;
   return standard;
 }
@@ -298,17 +298,17 @@ bool AxisMaster::finished(const Step& step, RingState& ring) {
       level_ = level_goal_;
       return false;
     }
-    case Do::kProfile:
+    case Do::kStartProfile:
     case Do::kCommand:
       return run_request(step, ring);
     case Do::kProfileEnd:
-      if (code_ == kProfile) {
+      if (code_ == kProfileCommand) {
         if (seen(response::kInProgress)) return false;
-        code_ = kNormal;
+        code_ = kNormalCommand;
         data3_ = 0;
       }
       return seen_value(response::kCodeEcho) == cyclic_ << 4;
-    case Do::kNop:
+    case Do::kSendNop:
       if (ring.cycle - started_cycle_ < step.cycles) return false;
       nop_ = false;
       return true;
@@ -332,7 +332,7 @@ void AxisMaster::fill(MutableBytes block) {
   if (cyclic_ == kPp) data1 = profile_target_;
   if (cyclic_ == kCv || cyclic_ == kCt) data1 = level_ / kMilli;
   put(command::kData1, block, data1);
-  if (code_ != kNormal) {
+  if (code_ != kNormalCommand) {
     put(command::kTypeCode, block, type_);
     put(command::kIndex, block, index_);
   }
@@ -340,7 +340,7 @@ void AxisMaster::fill(MutableBytes block) {
   if (!wide_) return;
   put(command::kSubChk, block, 1);
   put(command::kSubCode, block, sub_code_);
-  if (sub_code_ != kNormal) {
+  if (sub_code_ != kNormalCommand) {
     put(command::kSubTypeCode, block, sub_type_);
     put(command::kSubIndex, block, sub_index_);
   }

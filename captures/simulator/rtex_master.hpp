@@ -68,11 +68,11 @@ class AxisMaster {
   int cyclic_;
   bool nop_ = false;
   std::array<std::uint8_t, kWideBlock> control_{};  // bytes 2 and 3 are used
-  int code_ = kNormal;
+  int code_ = kNormalCommand;
   int type_ = 0;
   int index_ = 0;
   std::int32_t data3_ = 0;
-  int sub_code_ = kNormal;
+  int sub_code_ = kNormalCommand;
   int sub_type_ = 0;
   int sub_index_ = 0;
 
@@ -96,8 +96,8 @@ class AxisMaster {
   std::int64_t phase_cycle_ = 0;
   bool seen_running_ = false;
   bool chained_ = false;    // the command before stays until the next one replaces it
-  int sent_code_ = kNormal;  // of the block sent last
-  int sent_sub_code_ = kNormal;
+  int sent_code_ = kNormalCommand;  // of the block sent last
+  int sent_sub_code_ = kNormalCommand;
 
   std::array<std::uint8_t, kWideBlock> response_{};
   bool has_response_ = false;

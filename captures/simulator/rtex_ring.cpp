@@ -287,7 +287,7 @@ bool RingSimulation::apply(std::int64_t cycle, bool of_command, MutableBytes mem
       const MutableBytes block = memory.subspan(axis.offset, axis.size);
       const unsigned last = of_field ? fault.field.first_byte + fault.field.byte_count - 1U : fault.byte;
       if (last >= block.size()) continue;
-      put(of_field ? fault.field : bits(fault.byte, 0, 8), block, fault.value);
+      put(of_field ? fault.field : whole_byte(fault.byte), block, fault.value);
     }
   }
   return true;

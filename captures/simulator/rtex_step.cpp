@@ -116,49 +116,49 @@ void read_arguments(TableReader& reader, Word word, Step& step) {
       request.index = static_cast<int>(reader.integer("index", 0, 0, 0xFFFF));
       break;
     case Word::kSystemId:
-      code(kSystemId, static_cast<int>(reader.integer("type", 0, 0xFFF)));
+      code(kSystemIdCommand, static_cast<int>(reader.integer("type", 0, 0xFFF)));
       request.index = static_cast<int>(reader.integer("index", 0, 0, 0xFFFF));
       break;
     case Word::kParameterRead:
     case Word::kParameterAttribute:
-      code(kParameter, word == Word::kParameterRead ? 0x010 : 0x040);
+      code(kParameterCommand, word == Word::kParameterRead ? 0x010 : 0x040);
       request.index = read_parameter(reader, "parameter");
       break;
     case Word::kParameterWrite:
-      code(kParameter, 0x011);
+      code(kParameterCommand, 0x011);
       request.index = read_parameter(reader, "parameter");
       request.data3 = static_cast<std::int32_t>(reader.integer("value", kInt32Min, kInt32Max));
       break;
     case Word::kParameterCount:
-      code(kParameter, 0x030);
+      code(kParameterCommand, 0x030);
       request.index = static_cast<int>(reader.integer("class", 0, 255)) << 8;
       break;
     case Word::kEepromWrite:
-      code(kParameter, reader.boolean("conventional", false) ? 0x101 : 0x081);
+      code(kParameterCommand, reader.boolean("conventional", false) ? 0x101 : 0x081);
       break;
     case Word::kAlarmRead:
-      code(kAlarm, 0x000);
+      code(kAlarmCommand, 0x000);
       request.index = static_cast<int>(reader.integer("index", 0, 0, 0xFFFF));
       break;
     case Word::kAlarmClear:
-      code(kAlarm, 0x001);
+      code(kAlarmCommand, 0x001);
       break;
     case Word::kAlarmAttribute:
-      code(kAlarm, 0x002);
+      code(kAlarmCommand, 0x002);
       request.index = static_cast<int>(reader.integer("main", 0, 0, 255) | reader.integer("sub", 0, 0, 255) << 8);
       break;
     case Word::kAlarmHistoryClear:
-      code(kAlarm, 0x011);
+      code(kAlarmCommand, 0x011);
       break;
     case Word::kScaleClear:
-      code(kAlarm, 0x021);
+      code(kAlarmCommand, 0x021);
       break;
     case Word::kMonitor:
-      code(kMonitor, static_cast<int>(reader.integer("type", 0, 0xFFF)));
+      code(kMonitorCommand, static_cast<int>(reader.integer("type", 0, 0xFFF)));
       request.index = static_cast<int>(reader.integer("index", 0, 0, 0xFFFF));
       break;
     case Word::kHoming:
-      code(kHoming, static_cast<int>(reader.integer("type", 0, 0xFF)));
+      code(kHomingCommand, static_cast<int>(reader.integer("type", 0, 0xFF)));
       request.index = static_cast<int>(reader.integer("latch1", 0, 0, 15) | reader.integer("latch2", 0, 0, 15) << 4 |
                                        reader.integer("monitor", 0, 0, 255) << 8);
       if (const auto value = reader.optional_integer("value", kInt32Min, kInt32Max))
@@ -168,12 +168,12 @@ void read_arguments(TableReader& reader, Word word, Step& step) {
       step.speed = reader.integer("speed", 0, kInt32Min, kInt32Max);
       break;
     case Word::kReset:
-      code(kReset, 0x001);
+      code(kResetCommand, 0x001);
       request.leave = Leave::kAllEcho;
       request.settle = false;
       break;
     case Word::kValidate:
-      code(kReset, 0x011);
+      code(kResetCommand, 0x011);
       break;
     default:
       break;
@@ -182,7 +182,7 @@ void read_arguments(TableReader& reader, Word word, Step& step) {
 
 void read_profile(TableReader& reader, Step& step) {
   Request& request = step.request;
-  request.code = kProfile;
+  request.code = kProfileCommand;
   request.type = reader.choice<int>("type", 0x10,
                                     {{"absolute", 0x10},
                                      {"relative", 0x11},
@@ -293,7 +293,7 @@ Do kind_of(Word word) {
     case Word::kMode:
       return Do::kMode;
     case Word::kProfile:
-      return Do::kProfile;
+      return Do::kStartProfile;
     case Word::kProfileUpdate:
       return Do::kProfileUpdate;
     case Word::kProfileEnd:
@@ -301,7 +301,7 @@ Do kind_of(Word word) {
     case Word::kControl:
       return Do::kControl;
     case Word::kNop:
-      return Do::kNop;
+      return Do::kSendNop;
     case Word::kDrive:
       return Do::kDrive;
     default:
@@ -345,14 +345,14 @@ void read_step(const toml::table& table, Problems& problems, std::int64_t cycles
       step.for_ns = reader.milliseconds("ms", 0);
       step.cycles = reader.integer("cycles", 0, 0, 100'000'000);
       break;
-    case Do::kNop:
+    case Do::kSendNop:
       step.cycles = reader.integer("cycles", 1, 1, 1'000'000);
       break;
     case Do::kServoOn:
     case Do::kServoOff:
       step.wait = reader.boolean("wait", true);
       break;
-    case Do::kProfile:
+    case Do::kStartProfile:
       read_profile(reader, step);
       read_handshake(reader, cycles_per_second, step);
       break;

@@ -21,12 +21,12 @@ enum class Do : std::uint8_t {
   kSpeed,          // CV
   kTorque,         // CT
   kMode,           // another cyclic code
-  kProfile,        // PP: 17h
+  kStartProfile,   // PP: 17h
   kProfileUpdate,  // PP: another target or speed while 17h is held
   kProfileEnd,     // PP: waits for the end of the operation and goes back to 10h
   kCommand,        // any other non-cyclic command
   kControl,        // control bits
-  kNop,
+  kSendNop,
   kDrive           // something happens to the drive
 };
 
@@ -69,11 +69,11 @@ struct Step {
   bool wait = true;
   bool relative = false;
   std::int64_t target = 0;
-  std::int64_t speed = 0;  // command units a second; kSpeed and kProfile: in the unit of Pr7.25
+  std::int64_t speed = 0;  // command units a second; kSpeed and kProfileCommand: in the unit of Pr7.25
   std::int64_t rate = 1'000'000;
   int mode = kCp;
   bool hurry = false;     // kMode: without waiting for the 2 ms of 7-6-3
-  bool together = false;  // kProfile: with the change into PP in the same cycle
+  bool together = false;  // kProfileCommand: with the change into PP in the same cycle
   std::optional<std::int64_t> first_value;
   Request request;
   std::vector<ControlBit> control;
