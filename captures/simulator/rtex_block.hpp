@@ -79,7 +79,8 @@ namespace response {
 inline constexpr Slot kMacId = slot(layout::kResponse, "mac_id");
 inline constexpr Slot kCounterEcho = slot(layout::kResponse, "update_counter_echo");
 inline constexpr Slot kCr = slot(layout::kResponse, "cr");
-inline constexpr Slot kCodeEcho = joined(slot(layout::kResponse, "non_cyclic_command_echo"), slot(layout::kResponse, "cyclic_command_echo"));
+inline constexpr Slot kCodeEcho =
+    joined(slot(layout::kResponse, "non_cyclic_command_echo"), slot(layout::kResponse, "cyclic_command_echo"));
 inline constexpr Slot kCmdError = slot(layout::kResponse, "cmd_error");
 inline constexpr Slot kInPosition = slot(layout::kResponse, "in_position");
 inline constexpr Slot kInProgress = slot(layout::kResponse, "in_progress");

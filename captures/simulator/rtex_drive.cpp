@@ -62,9 +62,7 @@ std::int64_t A5nDrive::speed_from_unit(std::int64_t value) const {
   return std::clamp(units, -limit, limit) * kMicro;
 }
 
-bool A5nDrive::is_moving() const {
-  return std::abs(motor_.speed / kMicro * 60 / config_.units_per_rev) >= kTurningRpm;
-}
+bool A5nDrive::is_moving() const { return std::abs(motor_.speed / kMicro * 60 / config_.units_per_rev) >= kTurningRpm; }
 
 bool A5nDrive::profile_is_exclusive() const {
   return profile_.type == 0x12 || profile_.type == 0x13 || profile_.type >= 0x31;
@@ -235,10 +233,11 @@ void A5nDrive::move(Bytes command) {
       torque_ = motor_.speed == 0 ? 0 : (motor_.speed > 0 ? 48 : -48);
       break;
     case kCt: {
-      if (fresh) torque_ = static_cast<std::int32_t>(std::clamp<std::int64_t>(data1, -config_.max_torque,
-                                                                              config_.max_torque));
+      if (fresh)
+        torque_ = static_cast<std::int32_t>(std::clamp<std::int64_t>(data1, -config_.max_torque, config_.max_torque));
       // 0.1 % of torque for 60 command units a second squared, against friction that grows with the speed.
-      const std::int64_t limit = speed_from_unit(parameter(7, 25) == 1 ? std::int64_t{config_.units_per_rev} * 50 : 3000);
+      const std::int64_t limit =
+          speed_from_unit(parameter(7, 25) == 1 ? std::int64_t{config_.units_per_rev} * 50 : 3000);
       const std::int64_t wanted = std::clamp(std::int64_t{torque_} * 100 * kMicro, -limit, limit);
       motor_.to_speed(wanted, 60'000, step_ns_);
       command_ = motor_.position;
@@ -346,13 +345,12 @@ void A5nDrive::watch_triggers(std::int64_t before) {
       home_at(0);
     }
   }
-  if (main_.busy && main_.run_code == kHomingCommand && main_.run_type >= 0x11 && main_.run_type <= 0x1D && homing_ctrl_) {
+  if (main_.busy && main_.run_code == kHomingCommand && main_.run_type >= 0x11 && main_.run_type <= 0x1D &&
+      homing_ctrl_) {
     // 11h Z phase; then pairs of rising and falling: HOME, POT, NOT, EXT1 to EXT3 (6-5-1).
     static constexpr unsigned kBits[] = {2, 1, 0, 3, 4, 5};
     const int pair = main_.run_type - 0x12;
-    const bool hit = main_.run_type == 0x11 ? z_phase
-                     : pair % 2 == 0        ? rose(kBits[pair / 2])
-                                            : fell(kBits[pair / 2]);
+    const bool hit = main_.run_type == 0x11 ? z_phase : pair % 2 == 0 ? rose(kBits[pair / 2]) : fell(kBits[pair / 2]);
     if (hit) {
       home_at(0);
       main_.busy = false;
@@ -379,15 +377,15 @@ void A5nDrive::respond(MutableBytes response) const {
   put(response::kMacId, response, config_.mac_id);
   put(response::kCounterEcho, response, counter_echo_);
   put(response::kServoActive, response, servo_active_ ? 1 : 0);
-  put(response::kServoReady, response,
-      main_power_ && alarm_.main == 0 && since_cyclic_ns_ >= config_.ready_ns ? 1 : 0);
+  put(response::kServoReady, response, main_power_ && alarm_.main == 0 && since_cyclic_ns_ >= config_.ready_ns ? 1 : 0);
   put(response::kAlarm, response, alarm_.main != 0 ? 1 : 0);
   put(response::kWarning, response, warning_ != 0 ? 1 : 0);
   put(response::kTorqueLimited, response, torque_limited_ ? 1 : 0);
   put(response::kHomingComplete, response, homing_complete_ ? 1 : 0);
   const bool ac_off = (parameter(7, 23) & 0x100) != 0;
   put(response::kInProgress, response, (ac_off ? !main_power_ : profile_runs()) ? 1 : 0);
-  put(response::kInPosition, response, std::abs(command_ - motor_.position) <= 10 * kMicro && motor_.speed == 0 ? 1 : 0);
+  put(response::kInPosition, response,
+      std::abs(command_ - motor_.position) <= 10 * kMicro && motor_.speed == 0 ? 1 : 0);
   put(response::kInputs, response, input_byte());
   const int select = parameter(7, 29);
   put(response::kData1, response, monitor(select == 0 ? 0x07 : select));

@@ -75,9 +75,9 @@ struct DriveChannel {
   bool err = false;
   bool wng = false;
   bool busy = false;
-  DurationNs busy_ns = 0;   // left, where time ends it
-  int error = 0;            // command error of the present command
-  bool executed = false;    // the present command was started
+  DurationNs busy_ns = 0;  // left, where time ends it
+  int error = 0;           // command error of the present command
+  bool executed = false;   // the present command was started
 };
 
 class A5nDrive {

@@ -66,7 +66,8 @@ void A5nDrive::process_main(Bytes command, int cyclic) {
   DriveChannel& channel = main_;
   const int code = static_cast<int>(get(command::kNonCyclic, command));
   // Homing and profile keep bits 3-0 of byte 9 for themselves.
-  const int type = static_cast<int>(get(command::kTypeCode, command)) & (code == kHomingCommand || code == kProfileCommand ? 0xFF : 0xFFF);
+  const int type = static_cast<int>(get(command::kTypeCode, command)) &
+                   (code == kHomingCommand || code == kProfileCommand ? 0xFF : 0xFFF);
   const int index = static_cast<int>(get(command::kIndex, command));
   const auto data3 = static_cast<std::int32_t>(get(command::kData3, command));
   const bool setting = takes_setting(code, type);
@@ -322,10 +323,12 @@ void A5nDrive::start_profile(DriveChannel& channel, Bytes command) {
 }
 
 void A5nDrive::leave_command(const DriveChannel& channel, int next_code) {
-  if (channel.code == kResetCommand && channel.type == 0x001 && channel.executed && next_code == kNormalCommand) in_reset_ = true;
+  if (channel.code == kResetCommand && channel.type == 0x001 && channel.executed && next_code == kNormalCommand)
+    in_reset_ = true;
   if (channel.code == kHomingCommand) {
     homing_lock_ = false;
-    if (main_.busy && main_.run_code == kHomingCommand && main_.run_type >= 0x11 && main_.run_type <= 0x1D) main_.busy = false;
+    if (main_.busy && main_.run_code == kHomingCommand && main_.run_type >= 0x11 && main_.run_type <= 0x1D)
+      main_.busy = false;
   }
 }
 
@@ -488,7 +491,8 @@ std::int32_t A5nDrive::command_result(const DriveChannel& channel) const {
       if (is_latch(channel.run_type)) return monitor(channel.run_index >> 8);
       return channel.run_type == 0x21 || channel.run_type == 0x22 ? channel.run_setting : 0;
     case kAlarmCommand:
-      if (channel.run_type == 0x002) return alarm_.main == 0 && channel.run_index == 0 ? 0 : attribute_of_alarm(channel);
+      if (channel.run_type == 0x002)
+        return alarm_.main == 0 && channel.run_index == 0 ? 0 : attribute_of_alarm(channel);
       if (channel.run_type == 0x000 && channel.run_index > 0) {
         const auto place = static_cast<std::size_t>(channel.run_index - 1);
         return place < history_.size() ? code_of(history_[place]) : 0;
@@ -496,7 +500,8 @@ std::int32_t A5nDrive::command_result(const DriveChannel& channel) const {
       return code_of(alarm_) | warning_ << 16;
     case kParameterCommand:
       if (channel.run_type == 0x010 || channel.run_type == 0x011)
-        return parameter(static_cast<unsigned>(channel.run_index) >> 8U, static_cast<unsigned>(channel.run_index) & 0xFFU);
+        return parameter(static_cast<unsigned>(channel.run_index) >> 8U,
+                         static_cast<unsigned>(channel.run_index) & 0xFFU);
       if (channel.run_type == 0x030) return channel.run_index >> 8 == 8 ? kParametersInClass8 : 0;
       if (channel.run_type == 0x040) return attribute_of_parameter(channel.run_index);
       return 0;
@@ -511,7 +516,8 @@ std::int32_t A5nDrive::command_result(const DriveChannel& channel) const {
 
 // 6-6-3: bit 6 of byte 12, the alarm cannot be cleared.
 std::int32_t A5nDrive::attribute_of_alarm(const DriveChannel& channel) const {
-  const AlarmCode asked{static_cast<std::uint8_t>(channel.run_index), static_cast<std::uint8_t>(channel.run_index >> 8)};
+  const AlarmCode asked{static_cast<std::uint8_t>(channel.run_index),
+                        static_cast<std::uint8_t>(channel.run_index >> 8)};
   return can_clear(channel.run_index == 0 ? alarm_ : asked) ? 0 : 0x40;
 }
 
@@ -521,8 +527,8 @@ std::int32_t A5nDrive::attribute_of_parameter(int index) {
   constexpr int kConfigurable = 0x1000;
   constexpr int k32Bit = 0x8000;
   int bits = is_32_bit(index) ? k32Bit : 0;
-  if (index == 0x0008) bits |= kAtInit | kConfigurable;         // attribute C
-  if (index >= 0x0714 && index <= 0x0716) bits |= kAtInit;      // Pr7.20 to Pr7.22: attribute R
+  if (index == 0x0008) bits |= kAtInit | kConfigurable;                     // attribute C
+  if (index >= 0x0714 && index <= 0x0716) bits |= kAtInit;                  // Pr7.20 to Pr7.22: attribute R
   if (index >= 0x0723 && index <= 0x0725) bits |= kAtInit | kConfigurable;  // Pr7.35 to Pr7.37: C
   return bits;
 }

@@ -80,11 +80,12 @@ Fault read_fault(const toml::table& table, Problems& problems, std::int64_t cycl
                                          {"header_byte", FaultKind::kHeaderByte}});
   fault.axis = static_cast<int>(reader.integer("axis", -1, 0, 31));
   const auto to_cycles = [&](DurationNs time_ns) { return time_ns * cycles_per_second / kSecondNs; };
-  fault.first_cycle = reader.has("at_ms") ? to_cycles(reader.milliseconds("at_ms", 0))
-                                          : reader.integer("at_cycle", 0, 0, 100'000'000);
-  if (reader.has("at_ms") && reader.has("at_cycle")) reader.fail("at_ms", "\"at_ms\" and \"at_cycle\" exclude each other");
-  fault.cycles = reader.has("for_ms") ? to_cycles(reader.milliseconds("for_ms", 0))
-                                      : reader.integer("cycles", 1, 1, 100'000'000);
+  fault.first_cycle =
+      reader.has("at_ms") ? to_cycles(reader.milliseconds("at_ms", 0)) : reader.integer("at_cycle", 0, 0, 100'000'000);
+  if (reader.has("at_ms") && reader.has("at_cycle"))
+    reader.fail("at_ms", "\"at_ms\" and \"at_cycle\" exclude each other");
+  fault.cycles =
+      reader.has("for_ms") ? to_cycles(reader.milliseconds("for_ms", 0)) : reader.integer("cycles", 1, 1, 100'000'000);
   switch (fault.kind) {
     case FaultKind::kCommandField:
     case FaultKind::kResponseField:

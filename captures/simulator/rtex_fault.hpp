@@ -37,10 +37,10 @@ enum class Records : std::uint8_t { kCommand, kResponse, kBoth };
 
 struct Fault {
   FaultKind kind = FaultKind::kCounterStuck;
-  int axis = -1;                   // MAC-ID; -1: every axis
-  std::int64_t first_cycle = 0;    // communication cycle
-  std::int64_t cycles = 1;         // communication cycles it lasts
-  bool relative = false;           // first_cycle counts from the start of the step it belongs to
+  int axis = -1;                 // MAC-ID; -1: every axis
+  std::int64_t first_cycle = 0;  // communication cycle
+  std::int64_t cycles = 1;       // communication cycles it lasts
+  bool relative = false;         // first_cycle counts from the start of the step it belongs to
   Records records = Records::kBoth;
   Slot field;
   unsigned byte = 0;

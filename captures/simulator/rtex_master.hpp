@@ -15,10 +15,10 @@ namespace servotrace::simulator::ring {
 // What the axes of a ring share.
 struct RingState {
   std::int64_t cycle = 0;
-  DurationNs now_ns = 0;        // since the ring's start
+  DurationNs now_ns = 0;          // since the ring's start
   bool all_reset_echoed = false;  // every drive echoes x1h
-  int slowest_sync = 0;         // sync steps that every axis has reached
-  std::vector<Fault> faults;    // with the cycle they begin in
+  int slowest_sync = 0;           // sync steps that every axis has reached
+  std::vector<Fault> faults;      // with the cycle they begin in
 };
 
 class AxisMaster {
@@ -83,7 +83,7 @@ class AxisMaster {
   std::int64_t rate_ = 1'000'000;
   bool moving_ = false;
   std::int64_t drift_ = 0;  // CP: speed while homing to a trigger
-  bool detached_ = false;  // CP, servo off: the command position does not follow the actual one
+  bool detached_ = false;   // CP, servo off: the command position does not follow the actual one
   std::int64_t level_ = 0;  // CV: speed, CT: torque; thousandths
   std::int64_t level_goal_ = 0;
   std::int64_t level_step_ = 0;
@@ -95,7 +95,7 @@ class AxisMaster {
   Phase phase_ = Phase::kHeld;
   std::int64_t phase_cycle_ = 0;
   bool seen_running_ = false;
-  bool chained_ = false;    // the command before stays until the next one replaces it
+  bool chained_ = false;            // the command before stays until the next one replaces it
   int sent_code_ = kNormalCommand;  // of the block sent last
   int sent_sub_code_ = kNormalCommand;
 

@@ -55,7 +55,8 @@ Timing read_timing(TableReader& reader) {
   };
   static constexpr Row kRows[] = {
       {83.333, 12'000, 83'333}, {166.667, 6'000, 166'667}, {500.0, 2'000, 500'000}, {1000.0, 1'000, 1'000'000}};
-  const auto* row = std::find_if(std::begin(kRows), std::end(kRows), [&](const Row& entry) { return entry.us == cycle_us; });
+  const auto* row =
+      std::find_if(std::begin(kRows), std::end(kRows), [&](const Row& entry) { return entry.us == cycle_us; });
   if (row == std::end(kRows)) {
     reader.fail("cycle_us", "\"cycle_us\" must be 83.333, 166.667, 500 or 1000");
   } else {
@@ -348,8 +349,7 @@ void RingSimulation::record(std::int64_t cycle, bool response, TimeNs time_ns) {
   TimeNs stamp_ns = time_ns;
   if (const Fault* stamp = find_record(FaultKind::kStamp, response)) stamp_ns -= stamp->value * kMicrosecondNs;
   const int times = find_record(FaultKind::kRepeat, response) != nullptr ? 2 : 1;
-  for (int i = 0; i < times; ++i)
-    job_.recording.add_stamped(config_.interface_id, time_ns, stamp_ns, frame, length);
+  for (int i = 0; i < times; ++i) job_.recording.add_stamped(config_.interface_id, time_ns, stamp_ns, frame, length);
 }
 
 void RingSimulation::simulate() {
@@ -378,8 +378,7 @@ void RingSimulation::simulate() {
     apply(wall_cycle, true, commands_);
     record(cycle, false, time_of(wall_cycle, false));
     exchange(wall_cycle);
-    const bool lost =
-        std::any_of(axes_.begin(), axes_.end(), [](const Axis& axis) { return axis.drive->in_reset(); });
+    const bool lost = std::any_of(axes_.begin(), axes_.end(), [](const Axis& axis) { return axis.drive->in_reset(); });
     if (!lost) {
       record(cycle, true, time_of(wall_cycle, true));
       resetting_ = false;

@@ -203,11 +203,11 @@ void read_control(TableReader& reader, Step& step) {
   static constexpr struct {
     std::string_view key;
     Slot bit;
-  } kBits[] = {{"servo_on", command::kServoOn},       {"gain_sw", command::kGainSw},
-               {"tl_sw", command::kTlSw},             {"homing_ctrl", command::kHomingCtrl},
-               {"hard_stop", command::kHardStop},     {"smooth_stop", command::kSmoothStop},
-               {"pause", command::kPause},            {"sl_sw", command::kSlSw},
-               {"ex_out1", command::kExOut1},         {"ex_out2", command::kExOut2}};
+  } kBits[] = {{"servo_on", command::kServoOn},   {"gain_sw", command::kGainSw},
+               {"tl_sw", command::kTlSw},         {"homing_ctrl", command::kHomingCtrl},
+               {"hard_stop", command::kHardStop}, {"smooth_stop", command::kSmoothStop},
+               {"pause", command::kPause},        {"sl_sw", command::kSlSw},
+               {"ex_out1", command::kExOut1},     {"ex_out2", command::kExOut2}};
   for (const auto& entry : kBits) {
     if (reader.has(entry.key)) step.control.push_back({entry.bit, reader.boolean(entry.key, false)});
   }
@@ -224,7 +224,8 @@ void read_drive(TableReader& reader, Step& step) {
     };
     step.alarm = AlarmCode{number(0), number(1)};
   }
-  if (const auto warning = reader.optional_integer("warning", 0, 255)) step.warning = static_cast<std::uint8_t>(*warning);
+  if (const auto warning = reader.optional_integer("warning", 0, 255))
+    step.warning = static_cast<std::uint8_t>(*warning);
   if (reader.has("input")) {
     step.input = reader.choice<unsigned>("input", 2U,
                                          {{"not", 0U},
@@ -251,8 +252,8 @@ void read_motion(TableReader& reader, Word word, Step& step) {
     case Word::kJump:
       step.relative = reader.has("by");
       if (reader.has("by") == reader.has("to")) reader.fail("do", "needs either \"to\" or \"by\"");
-      step.target = reader.has("by") ? reader.integer("by", kInt32Min, kInt32Max)
-                                     : reader.integer("to", 0, kInt32Min, kInt32Max);
+      step.target =
+          reader.has("by") ? reader.integer("by", kInt32Min, kInt32Max) : reader.integer("to", 0, kInt32Min, kInt32Max);
       if (word == Word::kMove) step.speed = reader.integer("speed", 50'000, 1, 100'000'000);
       if (word == Word::kMove) step.rate = reader.integer("acceleration", 1'000'000, 1, 1'000'000'000);
       break;

@@ -13,7 +13,7 @@ namespace servotrace::simulator::ring {
 
 enum class Do : std::uint8_t {
   kWait,
-  kSync,           // until every axis is here
+  kSync,  // until every axis is here
   kServoOn,
   kServoOff,
   kMove,           // CP: the master generates the positions
@@ -27,7 +27,7 @@ enum class Do : std::uint8_t {
   kCommand,        // any other non-cyclic command
   kControl,        // control bits
   kSendNop,
-  kDrive           // something happens to the drive
+  kDrive  // something happens to the drive
 };
 
 // When the master goes back from a non-cyclic command to the standard command.
