@@ -88,7 +88,7 @@ class TrcSource final : public TextSource {
       }
       case 'T':
         return type(word, record);
-      case 'd': {  // versions 1.1 to 1.3 put the kind of event here
+      case 'd': {                       // versions 1.1 to 1.3 put the kind of event here
         if (record.error) return true;  // its columns may be blank, and this a later one
         const std::string direction = lower(word);
         if (direction == "error") {

