@@ -2,6 +2,8 @@
 // [[ring]]: a controller and its axes, recorded cycle by cycle.
 #include <algorithm>
 #include <array>
+#include <cstdio>
+#include <deque>
 #include <memory>
 
 #include "captures/simulator/bus.hpp"
@@ -23,7 +25,6 @@ struct Axis {
   std::size_t offset = 0;  // of its blocks in the memories
   std::size_t size = 0;
   int counter = 0;           // Update_Counter sent last
-  bool counter_used = true;  // false once kCounterStuck lasts from the first command on
 };
 
 struct RingConfig {
@@ -42,6 +43,7 @@ struct RingConfig {
   std::int64_t record_from = 0;  // cycle
   std::int64_t jitter_ns = 0;
   std::int64_t restart_cycles = 40;  // between the loss of a ring and its new start
+  std::size_t late_responses = 0;    // cycles by which the recorder reads the reception memory too early
   std::int64_t lost_cycles = 6;      // cycles without a response after which the master sees that the ring is lost
 };
 
@@ -146,10 +148,10 @@ class RingSimulation {
   RingState ring_;
   std::vector<std::uint8_t> commands_;
   std::vector<std::uint8_t> responses_;
+  std::deque<std::vector<std::uint8_t>> recorded_responses_;  // the newest last
   std::int64_t nop_from_ = 0;  // the cycle in which the ring was initialised last
   bool resetting_ = false;
   std::int64_t reset_cycle_ = 0;
-  bool has_responses_ = false;
   std::uint32_t noise_ = 12345;
 };
 
@@ -176,6 +178,7 @@ void RingSimulation::read() {
   const auto cycles = [&](DurationNs time_ns) { return time_ns * config.timing.cycles_per_second / kSecondNs; };
   config.record_from = cycles(reader.milliseconds("record_from_ms", 0));
   config.jitter_ns = reader.microseconds("jitter_us", 1'000);
+  config.late_responses = static_cast<std::size_t>(reader.integer("late_responses", 0, 0, 3));
   config.restart_cycles = cycles(reader.milliseconds("restart_ms", 20'000'000));
 
   std::size_t offset = 0;
@@ -310,6 +313,8 @@ void RingSimulation::exchange(std::int64_t cycle) {
     }
   }
   apply(cycle, false, responses_);
+  recorded_responses_.push_back(responses_);
+  if (recorded_responses_.size() > config_.late_responses + 1) recorded_responses_.pop_front();
   for (Axis& axis : axes_) axis.master->observe(Bytes(responses_).subspan(axis.offset, axis.size));
 }
 
@@ -336,7 +341,7 @@ void RingSimulation::record(std::int64_t cycle, bool response, TimeNs time_ns) {
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     if (axes_[i].size == kWideBlock) header.wide_nodes |= 1U << i;
   }
-  std::vector<std::uint8_t> bytes = make_record(header, response ? responses_ : commands_);
+  std::vector<std::uint8_t> bytes = make_record(header, response ? recorded_responses_.front() : commands_);
   for (const Fault& fault : ring_.faults) {
     const bool meant = fault.records == Records::kBoth || (fault.records == Records::kResponse) == response;
     if (fault.kind == FaultKind::kHeaderByte && meant && fault.acts(cycle))
