@@ -24,7 +24,7 @@ struct Axis {
   std::unique_ptr<AxisMaster> master;
   std::size_t offset = 0;  // of its blocks in the memories
   std::size_t size = 0;
-  int counter = 0;           // Update_Counter sent last
+  int counter = 0;  // Update_Counter sent last
 };
 
 struct RingConfig {
@@ -149,7 +149,7 @@ class RingSimulation {
   std::vector<std::uint8_t> commands_;
   std::vector<std::uint8_t> responses_;
   std::deque<std::vector<std::uint8_t>> recorded_responses_;  // the newest last
-  std::int64_t nop_from_ = 0;  // the cycle in which the ring was initialised last
+  std::int64_t nop_from_ = 0;                                 // the cycle in which the ring was initialised last
   bool resetting_ = false;
   std::int64_t reset_cycle_ = 0;
   std::uint32_t noise_ = 12345;
