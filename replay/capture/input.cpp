@@ -35,6 +35,18 @@ class MappedInput final : public Input {
   std::size_t length_;
 };
 
+class MemoryInput final : public Input {
+ public:
+  explicit MemoryInput(Bytes bytes) {
+    begin_ = cursor_ = bytes.data();
+    end_ = begin_ + bytes.size();
+    size_ = bytes.size();
+  }
+
+ private:
+  void refill(std::size_t) override {}
+};
+
 class DescriptorInput final : public BufferedInput {
  public:
   DescriptorInput(int descriptor, bool owned) : descriptor_(descriptor), owned_(owned) {}
@@ -95,6 +107,8 @@ Result<std::unique_ptr<Input>> open_input(const std::filesystem::path& path) {
   }
   return std::unique_ptr<Input>(std::move(closing));
 }
+
+std::unique_ptr<Input> memory_input(Bytes bytes) { return std::make_unique<MemoryInput>(bytes); }
 
 std::unique_ptr<Input> descriptor_input(int descriptor) { return std::make_unique<DescriptorInput>(descriptor, false); }
 

@@ -73,6 +73,8 @@ class BufferedInput : public Input {
 
 // Maps a regular file; any other is read through its descriptor. Errors carry `path` as their place.
 Result<std::unique_ptr<Input>> open_input(const std::filesystem::path& path);
+// Bytes in memory, which must outlive it.
+std::unique_ptr<Input> memory_input(Bytes bytes);
 // Reads a descriptor, which is not closed.
 std::unique_ptr<Input> descriptor_input(int descriptor);
 

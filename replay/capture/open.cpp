@@ -54,4 +54,8 @@ Result<std::unique_ptr<Source>> open_stream(int descriptor, std::string name) {
   return open(descriptor_input(descriptor), std::move(name));
 }
 
+Result<std::unique_ptr<Source>> open_bytes(Bytes bytes, std::string name) {
+  return open(memory_input(bytes), std::move(name));
+}
+
 }  // namespace servotrace::replay

@@ -77,5 +77,7 @@ class Source {
 Result<std::unique_ptr<Source>> open_capture(const std::filesystem::path& path);
 // Reads from a descriptor that cannot seek (standard input). `name` stands in messages. Does not close it.
 Result<std::unique_ptr<Source>> open_stream(int descriptor, std::string name);
+// A capture in memory, which must outlive the source.
+Result<std::unique_ptr<Source>> open_bytes(Bytes bytes, std::string name);
 
 }  // namespace servotrace::replay
