@@ -80,8 +80,7 @@ RuleFilter::RuleFilter(const RuleSettings& settings, Date day) {
     }
   }
   for (const Suppression& suppression : settings.suppressions) {
-    suppressions_.push_back(
-        Entry{.suppression = suppression, .expired = suppression.until && *suppression.until < day});
+    uses_.push_back(Use{.suppression = suppression, .expired = suppression.until && *suppression.until < day});
   }
 }
 
@@ -113,11 +112,11 @@ bool RuleFilter::apply(Finding& finding) {
   const auto index = static_cast<std::size_t>(finding.rule);
   if (!shown_[index]) return false;
   bool hidden = false;
-  for (Entry& entry : suppressions_) {
+  for (Use& entry : uses_) {
     const Suppression& suppression = entry.suppression;
     if (!kCatalogue[index].id.starts_with(suppression.rule)) continue;
     if (suppression.mac_id && *suppression.mac_id != finding.node.mac_id) continue;
-    ++entry.hidden;
+    ++entry.matched;
     if (!entry.expired) hidden = true;
   }
   if (hidden) {
@@ -128,12 +127,8 @@ bool RuleFilter::apply(Finding& finding) {
   return true;
 }
 
-std::vector<RuleFilter::Leftover> RuleFilter::leftovers() const {
-  std::vector<Leftover> all;
-  for (const Entry& entry : suppressions_) {
-    if (entry.expired || entry.hidden == 0) all.push_back({&entry.suppression, entry.expired});
-  }
-  return all;
+Severity RuleFilter::severity(RuleId rule) const {
+  return severity_[static_cast<std::size_t>(rule)].value_or(rule_row(rule).severity);
 }
 
 }  // namespace servotrace::replay

@@ -64,26 +64,25 @@ class RuleFilter {
   Result<void> ignore(std::span<const std::string> patterns);
 
   bool is_shown(RuleId rule) const { return shown_[static_cast<std::size_t>(rule)]; }
+  // The severity the settings give this rule, else its own.
+  Severity severity(RuleId rule) const;
   // Changes the finding's severity where the settings say so. False: it must not be shown.
   bool apply(Finding& finding);
 
-  // After all findings: suppressions that hid nothing, and those that have expired.
-  struct Leftover {
-    const Suppression* suppression = nullptr;
-    bool expired = false;  // else unused
+  // What each suppression did, in the order of the settings. One that has expired hides nothing; `matched` counts what
+  // it would have hidden.
+  struct Use {
+    Suppression suppression;
+    bool expired = false;
+    std::uint64_t matched = 0;
   };
-  std::vector<Leftover> leftovers() const;
+  std::span<const Use> uses() const { return uses_; }
   std::uint64_t suppressed() const { return suppressed_; }  // findings hidden by suppressions
 
  private:
-  struct Entry {
-    Suppression suppression;
-    bool expired = false;
-    std::uint64_t hidden = 0;
-  };
   std::array<bool, kRuleCount> shown_ = {};
   std::array<std::optional<Severity>, kRuleCount> severity_ = {};
-  std::vector<Entry> suppressions_;
+  std::vector<Use> uses_;
   std::uint64_t suppressed_ = 0;
 };
 

@@ -73,12 +73,12 @@ TEST(RuleFilter, SuppressionsHideCountAndExpire) {
   EXPECT_TRUE(filter.apply(of_other));
   EXPECT_TRUE(filter.apply(expired));
   EXPECT_EQ(filter.suppressed(), 1U);
-  const auto leftovers = filter.leftovers();
-  ASSERT_EQ(leftovers.size(), 2U);
-  EXPECT_EQ(leftovers[0].suppression->where, "2");
-  EXPECT_TRUE(leftovers[0].expired);
-  EXPECT_EQ(leftovers[1].suppression->where, "3");
-  EXPECT_FALSE(leftovers[1].expired);
+  ASSERT_EQ(filter.uses().size(), 3U);
+  EXPECT_EQ(filter.uses()[0].matched, 1U);
+  EXPECT_FALSE(filter.uses()[0].expired);
+  EXPECT_EQ(filter.uses()[1].matched, 1U);
+  EXPECT_TRUE(filter.uses()[1].expired);
+  EXPECT_EQ(filter.uses()[2].matched, 0U);
 }
 
 TEST(Today, FollowsSourceDateEpoch) {

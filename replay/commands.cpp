@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// The list of subcommands: a new one is one line.
+#include "replay/command_line.hpp"
+
+namespace servotrace::replay {
+namespace {
+
+constexpr Command kCommands[] = {
+    {"check", "verifies captures against the rules", &run_check},
+    {"decode", "prints every message, field by field", &run_decode},
+    {"info", "what is in a capture: buses, nodes, drives, cycles, learnt settings", &run_info},
+    {"explain", "a rule's page: what, why, fix, manual section", &run_explain},
+    {"rules", "the catalogue of rules", &run_rules},
+    {"simulate", "makes a capture from a scenario", &run_simulate},
+};
+
+}  // namespace
+
+std::span<const Command> commands() { return kCommands; }
+
+}  // namespace servotrace::replay

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "replay/rule_page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace servotrace::replay {
+namespace {
+
+std::string part(std::string_view title, std::string_view text, const Style& style) {
+  return fmt::format("\n{}{}{}\n{}", style.bold(), title, style.reset(), wrapped(text, 4));
+}
+
+}  // namespace
+
+std::string_view repeat_text(Repeat repeat) {
+  switch (repeat) {
+    case Repeat::kEach:
+      return "every occurrence is a finding";
+    case Repeat::kEpisode:
+      return "one finding as long as the condition lasts, with its last frame and a count";
+    case Repeat::kOnceNode:
+      return "one finding a node, counted";
+  }
+  return "";
+}
+
+std::string wrapped(std::string_view text, std::size_t indent, std::size_t width) {
+  std::string lines;
+  std::string line(indent, ' ');
+  bool is_empty = true;
+  while (!text.empty()) {
+    const std::size_t blank = std::min(text.find(' '), text.size());
+    const std::string_view word = text.substr(0, blank);
+    text.remove_prefix(std::min(blank + 1, text.size()));
+    if (word.empty()) continue;
+    if (!is_empty && line.size() + 1 + word.size() > width) {
+      lines += line + "\n";
+      line.assign(indent, ' ');
+      is_empty = true;
+    }
+    if (!is_empty) line += ' ';
+    line += word;
+    is_empty = false;
+  }
+  return lines + line + "\n";
+}
+
+std::string rule_page(const Rule& row, const Style& style) {
+  std::string text = fmt::format("{}{} {}{}\n{}", style.bold(), row.id, row.slug, style.reset(), wrapped(row.title, 4));
+  text += part("Severity", fmt::format("{}; done by the {}", name_of(row.severity), name_of(row.actor)), style);
+  text += part("Message", row.message, style);
+  text += part("Why it matters", row.why, style);
+  text += part("How to fix it", row.fix, style);
+  text += part("Manual", row.section, style);
+  std::string how(repeat_text(row.repeat));
+  if (row.lowered_when_assumed) {
+    how +=
+        "; one severity lower, and once a node, where it rests on an assumption: nothing in the capture or the "
+        "settings decides it";
+  }
+  if (row.needs_every_cycle) how += "; silent on sampled records, which do not show every cycle";
+  if (row.hosts == Hosts::kOfflineOnly) how += "; in the command line only, a dissector does not see what shows it";
+  text += part("How it is reported", how, style);
+  text += fmt::format("\n{}Leave it out{}\n    --ignore {}, or in servotrace.toml:  [rules] ignore = [\"{}\"]\n",
+                      style.bold(), style.reset(), row.id, row.id);
+  return text;
+}
+
+}  // namespace servotrace::replay
