@@ -76,7 +76,6 @@ class PcapSource final : public FileSource {
     frame.has_time = true;
     byte_offset_ = input_->position() + record_header_;
     input_->skip(whole);
-    consumed_ = input_->consumed();
     return Step::kFrame;
   }
 

@@ -98,6 +98,7 @@ class PcapngSource final : public FileSource {
           if (!statistics(block)) return Step::kError;
           break;
         default:
+          if (is_numbered(block)) ++number_;
           break;  // name resolution, secrets, custom blocks: nothing of a bus
       }
     }
@@ -132,8 +133,23 @@ class PcapngSource final : public FileSource {
     swap_ = swap;
     block_at_ = input_->position();
     input_->skip(total);
-    consumed_ = input_->consumed();
     return Step::kFrame;
+  }
+
+  // Wireshark 4 gives these blocks, which are no packets, a frame number too.
+  bool is_numbered(Bytes block) const {
+    switch (load32(block.data(), swap_)) {
+      case kJournal:
+      case kSysdigEvent:
+      case kSysdigEvent2:
+      case kSysdigLargeEvent2:
+        return true;
+      case kCustom:
+      case kCustomNoCopy:
+        return block.size() > kBlockFrame && load32(block.data() + 8, swap_) != kNetflix;
+      default:
+        return false;
+    }
   }
 
   bool refuse(std::string what) {

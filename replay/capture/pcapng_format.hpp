@@ -15,6 +15,14 @@ inline constexpr std::uint32_t kSimplePacket = 3;
 inline constexpr std::uint32_t kInterfaceStatistics = 5;
 inline constexpr std::uint32_t kEnhancedPacket = 6;
 
+inline constexpr std::uint32_t kJournal = 9;
+inline constexpr std::uint32_t kSysdigEvent = 0x204;
+inline constexpr std::uint32_t kSysdigEvent2 = 0x216;
+inline constexpr std::uint32_t kSysdigLargeEvent2 = 0x221;
+inline constexpr std::uint32_t kCustom = 0xBAD;
+inline constexpr std::uint32_t kCustomNoCopy = 0x40000BAD;
+inline constexpr std::uint32_t kNetflix = 10949;  // the one enterprise whose custom blocks Wireshark does not number
+
 inline constexpr std::uint32_t kByteOrderMagic = 0x1A2B3C4D;
 
 // Option codes.

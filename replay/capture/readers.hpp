@@ -13,11 +13,14 @@ namespace servotrace::replay {
 
 // What every reader of one input has: its place in messages and how it ends.
 class FileSource : public Source {
+ public:
+  std::uint64_t consumed() const override { return input_->consumed(); }
+  std::uint64_t total() const override { return input_->total(); }
+
  protected:
   FileSource(std::unique_ptr<Input> input, std::string name, std::string format) : input_(std::move(input)) {
     name_ = std::move(name);
     format_ = std::move(format);
-    total_ = input_->total();
   }
   Error broken(std::uint64_t at, std::string what) const {
     return Error{name_ + ": byte " + std::to_string(at), std::move(what)};
@@ -39,5 +42,9 @@ class FileSource : public Source {
 
 Result<std::unique_ptr<Source>> read_pcap(std::unique_ptr<Input> input, std::string name, std::string format);
 Result<std::unique_ptr<Source>> read_pcapng(std::unique_ptr<Input> input, std::string name, std::string format);
+Result<std::unique_ptr<Source>> read_candump(std::unique_ptr<Input> input, std::string name, std::string format);
+Result<std::unique_ptr<Source>> read_asc(std::unique_ptr<Input> input, std::string name, std::string format);
+Result<std::unique_ptr<Source>> read_trc(std::unique_ptr<Input> input, std::string name, std::string format);
+Result<std::unique_ptr<Source>> read_csv(std::unique_ptr<Input> input, std::string name, std::string format);
 
 }  // namespace servotrace::replay

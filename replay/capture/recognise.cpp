@@ -2,7 +2,11 @@
 #include "replay/capture/recognise.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <string_view>
+
+#include "replay/capture/csv.hpp"
+#include "replay/capture/text_source.hpp"
 
 namespace servotrace::replay {
 namespace {
@@ -19,7 +23,8 @@ constexpr Signature kRead[] = {
     {0, "\xD4\xC3\xB2\xA1"sv, Kind::kPcap},   {0, "\xA1\xB2\xC3\xD4"sv, Kind::kPcap},
     {0, "\x4D\x3C\xB2\xA1"sv, Kind::kPcap},   {0, "\xA1\xB2\x3C\x4D"sv, Kind::kPcap},
     {0, "\x34\xCD\xB2\xA1"sv, Kind::kPcap},   {0, "\xA1\xB2\xCD\x34"sv, Kind::kPcap},
-    {0, "\x0A\x0D\x0D\x0A"sv, Kind::kPcapng},
+    {0, "\x0A\x0D\x0D\x0A"sv, Kind::kPcapng}, {0, "\x1F\x8B"sv, Kind::kGzip},
+    {0, "\x28\xB5\x2F\xFD"sv, Kind::kZstd},
 };
 
 // Kinds that are not read. `help` begins after a semicolon; empty: nothing would make a capture of it.
@@ -111,6 +116,38 @@ bool is_erf(Input& input) {
   return true;
 }
 
+// The first line that is not empty, without the blanks around it; a stream is not waited for beyond its end.
+std::string_view first_line(Input& input) {
+  constexpr std::size_t kLongest = 4096;  // bytes looked at
+  for (std::size_t wanted = 1; wanted <= kLongest; ++wanted) {
+    const Bytes there = input.peek(wanted);
+    const std::size_t reach = std::min(input.at_hand().size(), kLongest);
+    std::string_view text(reinterpret_cast<const char*>(there.data()), reach);
+    if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
+    const std::size_t begin = text.find_first_not_of(" \t\r\n");
+    if (begin != std::string_view::npos) {
+      const std::size_t end = text.find_first_of("\r\n", begin);
+      if (end != std::string_view::npos || there.size() < wanted || reach == kLongest)
+        return text.substr(begin, end == std::string_view::npos ? end : end - begin);
+    }
+    if (there.size() < wanted) return {};
+    wanted = std::max(wanted, reach);
+  }
+  return {};
+}
+
+std::optional<Kind> text_kind(Input& input) {
+  const std::string_view line = first_line(input);
+  if (line.empty()) return std::nullopt;
+  const std::string word = lower(Words(line).next());
+  if (line.front() == '(' && line.find(')') != std::string_view::npos && line.find('#') != std::string_view::npos)
+    return Kind::kCandump;
+  if (word == "date" || word == "base" || (word == "begin" && lower(line).find("triggerblock") == 6)) return Kind::kAsc;
+  if (line.front() == ';') return Kind::kTrc;
+  if (parse_csv_header(line)) return Kind::kCsv;
+  return std::nullopt;
+}
+
 // The first byte that is no blank, over a UTF-8 mark.
 char first_letter(Bytes bytes) {
   std::size_t i = bytes.size() >= 3 && bytes[0] == 0xEF && bytes[1] == 0xBB && bytes[2] == 0xBF ? 3 : 0;
@@ -131,6 +168,7 @@ Result<Kind> recognise(Input& input, const std::string& name) {
   for (const Refused& kind : kRefused) {
     if (has(input, kind.offset, kind.bytes)) return refuse(name, kind.what, kind.help);
   }
+  if (const auto kind = text_kind(input)) return *kind;
   const Bytes sample = input.peek(kSample);
   if (input.failure()) return Error{name, *input.failure()};
   const bool binary = std::any_of(sample.begin(), sample.end(), [](std::uint8_t byte) {

@@ -10,7 +10,7 @@
 
 namespace servotrace::replay {
 
-enum class Kind : std::uint8_t { kPcap, kPcapng };
+enum class Kind : std::uint8_t { kPcap, kPcapng, kCandump, kAsc, kTrc, kCsv, kGzip, kZstd };
 
 // Looks at the first bytes of `input` and takes none. A kind that is not read is refused by name, with the converter
 // that would help.

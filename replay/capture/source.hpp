@@ -60,8 +60,8 @@ class Source {
   // Where the last frame's bytes lie in the (uncompressed) file; 0, 0 for text formats.
   std::uint64_t byte_offset() const { return byte_offset_; }
   // Bytes consumed and the size of the file (0: unknown, a stream), for progress.
-  std::uint64_t consumed() const { return consumed_; }
-  std::uint64_t total() const { return total_; }
+  virtual std::uint64_t consumed() const { return 0; }
+  virtual std::uint64_t total() const { return 0; }
 
  protected:
   Error error_;
@@ -70,8 +70,6 @@ class Source {
   std::vector<Dropped> dropped_;
   std::string format_;
   std::uint64_t byte_offset_ = 0;
-  std::uint64_t consumed_ = 0;
-  std::uint64_t total_ = 0;
 };
 
 // Opens a file by its content (memory-mapped where it can be). An unknown kind is refused by name, with the converter

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// The scenarios under captures/scenarios, simulated and checked.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "captures/simulator/scenario.hpp"
+#include "decoder/findings/finding.hpp"
+#include "decoder/pipeline/settings.hpp"
+
+namespace servotrace::test {
+
+// captures/scenarios/*.toml, by name.
+std::vector<std::filesystem::path> scenario_files();
+// Fail the test (and return something empty) where the file is broken.
+simulator::Scenario load_scenario(const std::filesystem::path& path);
+simulator::Simulation simulate_scenario(const simulator::Scenario& scenario);
+Settings settings_of(const simulator::Scenario& scenario);
+
+struct CheckedFinding {
+  Finding finding;
+  std::string rule;
+  std::string text;  // for messages
+};
+
+// All frames through one pipeline, then finish().
+std::vector<CheckedFinding> check(const simulator::Simulation& simulation, const Settings& settings);
+
+std::string_view channel_name(Channel channel);     // "" where there is none
+std::string_view severity_name(Severity severity);  // "note"
+
+}  // namespace servotrace::test
