@@ -270,9 +270,10 @@ void Pipeline::assume_devicenet(std::uint32_t interface_id) {
 
 void Pipeline::add_dropped(std::uint32_t interface_id, std::uint64_t count) {
   Interface* interface = impl_->interface(interface_id);
-  if (interface == nullptr || count == 0) return;
+  if (interface == nullptr) return;
   impl_->findings.mark();
   impl_->gap(interface_id);
+  if (count == 0) return;
   impl_->findings.raise(impl_->last, {.rule = rule("CP103"),
                                       .owner = interface->owner,
                                       .arguments = {capture::kLostDropped, static_cast<std::int64_t>(count)}});

@@ -31,7 +31,8 @@ class Pipeline {
   void assume_devicenet(std::uint32_t interface_id);
 
   // What only a reader of the whole file knows (rules marked offline only).
-  // The capture counted drops on this interface, first seen after the frame pushed last (CP103).
+  // The capture counted drops on this interface, first seen after the frame pushed last (CP103). Count 0: perhaps some
+  // (a border between joined files): what follows is compared with nothing, and nothing is reported.
   void add_dropped(std::uint32_t interface_id, std::uint64_t count);
   // The file ends inside a record, behind the frame pushed last (CP101): `captured` of `expected` bytes are there.
   void truncated_end(std::uint64_t captured, std::uint64_t expected);

@@ -33,23 +33,25 @@ struct Refused {
   std::string_view bytes;
   std::string_view what;
   std::string_view help;
+  bool is_capture = false;
 };
 
 constexpr std::string_view kEditcap = "convert it: editcap -F pcapng FILE OUT.pcapng";
 
 constexpr Refused kRefused[] = {
-    {0, "LOGG"sv, "a Vector BLF log", "convert it: can_logconvert FILE OUT.log (from python-can)"},
-    {0, "MDF     "sv, "a measurement file (ASAM MDF)", "convert it: can_logconvert FILE OUT.log (from python-can)"},
-    {0, "UnFinMF "sv, "an unfinished measurement file (ASAM MDF)", "finalise it with the tool that recorded it"},
-    {0, "snoop\0\0\0"sv, "a snoop capture", kEditcap},
+    {0, "LOGG"sv, "a Vector BLF log", "convert it: can_logconvert FILE OUT.log (from python-can)", true},
+    {0, "MDF     "sv, "a measurement file (ASAM MDF)", "convert it: can_logconvert FILE OUT.log (from python-can)",
+     true},
+    {0, "UnFinMF "sv, "an unfinished measurement file (ASAM MDF)", "finalise it with the tool that recorded it", true},
+    {0, "snoop\0\0\0"sv, "a snoop capture", kEditcap, true},
     {0, "btsnoop\0"sv, "a Bluetooth snoop capture", {}},
-    {0, "GMBU"sv, "a Microsoft Network Monitor capture", kEditcap},
-    {0, "RTSS"sv, "a Microsoft Network Monitor capture", kEditcap},
-    {0, "TRSNIFF data    \x1A"sv, "a Sniffer capture", kEditcap},
-    {0, "XCP\0"sv, "a NetXRay capture", kEditcap},
-    {0, "\x00\x00\x02\x00\x12\x05\x00\x10"sv, "a K12 capture", kEditcap},
-    {0, "iptrace "sv, "an AIX iptrace capture", kEditcap},
-    {0, "\xA1\xB2\xC3\xCD"sv, "a pcap file of an unknown variant", kEditcap},
+    {0, "GMBU"sv, "a Microsoft Network Monitor capture", kEditcap, true},
+    {0, "RTSS"sv, "a Microsoft Network Monitor capture", kEditcap, true},
+    {0, "TRSNIFF data    \x1A"sv, "a Sniffer capture", kEditcap, true},
+    {0, "XCP\0"sv, "a NetXRay capture", kEditcap, true},
+    {0, "\x00\x00\x02\x00\x12\x05\x00\x10"sv, "a K12 capture", kEditcap, true},
+    {0, "iptrace "sv, "an AIX iptrace capture", kEditcap, true},
+    {0, "\xA1\xB2\xC3\xCD"sv, "a pcap file of an unknown variant", kEditcap, true},
     {0,
      "\xFD"
      "7zXZ\0"sv,
@@ -157,7 +159,7 @@ char first_letter(Bytes bytes) {
 
 }  // namespace
 
-Result<Kind> recognise(Input& input, const std::string& name) {
+Result<Kind> recognise(Input& input, const std::string& name, bool* foreign_capture) {
   constexpr std::size_t kSample = 512;  // bytes that tell text from other content
   const Bytes first = input.peek(4);
   if (input.failure()) return Error{name, *input.failure()};
@@ -166,7 +168,9 @@ Result<Kind> recognise(Input& input, const std::string& name) {
     if (has(input, signature.offset, signature.bytes)) return signature.kind;
   }
   for (const Refused& kind : kRefused) {
-    if (has(input, kind.offset, kind.bytes)) return refuse(name, kind.what, kind.help);
+    if (!has(input, kind.offset, kind.bytes)) continue;
+    if (foreign_capture != nullptr) *foreign_capture = kind.is_capture;
+    return refuse(name, kind.what, kind.help);
   }
   if (const auto kind = text_kind(input)) return *kind;
   const Bytes sample = input.peek(kSample);
@@ -175,7 +179,10 @@ Result<Kind> recognise(Input& input, const std::string& name) {
     return byte < 0x20 && byte != '\t' && byte != '\n' && byte != '\r' && byte != '\f';
   });
   if (binary) {
-    if (is_erf(input)) return refuse(name, "an Endace ERF capture", kEditcap);
+    if (is_erf(input)) {
+      if (foreign_capture != nullptr) *foreign_capture = true;
+      return refuse(name, "an Endace ERF capture", kEditcap);
+    }
     return Error{name, "is no capture of a known kind"};
   }
   switch (first_letter(sample)) {
