@@ -4,6 +4,7 @@
 #include "dissector/fields.hpp"
 #include "dissector/preferences.hpp"
 #include "dissector/session.hpp"
+#include "dissector/statistics.hpp"
 #include "dissector/tree.hpp"
 #include "dissector/ws.hpp"
 
@@ -28,6 +29,7 @@ void draw_once(packet_info* pinfo, proto_tree* tree, const Visit& frame) {
   if (p_get_proto_data(pinfo->pool, pinfo, key, 0) != nullptr) return;
   p_add_proto_data(pinfo->pool, pinfo, key, 0, GUINT_TO_POINTER(1));
   draw(pinfo, tree, frame);
+  count_frame(pinfo, frame);
 }
 
 int dissect_rtex(tvbuff_t* tvb, packet_info* pinfo, proto_tree* tree, void*) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "dissector/fields.hpp"
 
+#include <array>
 #include <cctype>
 #include <deque>
 #include <string>
@@ -12,6 +13,8 @@
 
 namespace servotrace::plugin {
 namespace {
+
+constexpr std::size_t kAxes = 32;  // MAC IDs of a ring (SX-DSV02203 4-2-2)
 
 // Wireshark keeps the pointers it is given, so everything here lives until the program ends.
 struct Texts {
@@ -33,6 +36,14 @@ struct ProtocolRow {
   LinkFields links;
 };
 
+// The fields of one process value, an axis each.
+struct Signal {
+  std::string_view key;
+  const Field* row = nullptr;
+  bool scaled = false;
+  std::array<int, kAxes> fields = {};
+};
+
 struct Registry {
   Texts texts;
   std::deque<ProtocolRow> protocols;
@@ -41,6 +52,8 @@ struct Registry {
   std::deque<std::vector<int>> layout_fields;
   std::deque<int> layout_subtrees;
   std::unordered_map<std::string_view, std::deque<std::pair<const Field*, int>>> derived;
+  std::deque<Signal> signals;
+  std::unordered_map<std::string_view, const Signal*> signal_of;
   FindingFields finding;
   Subtrees subtrees;
   std::deque<hf_register_info> rows;
@@ -142,7 +155,7 @@ void add_row(int protocol, int* id, const Field& field, const char* filter, bool
     default:
       break;
   }
-  const std::size_t bytes = derived ? 8 : field.byte_count();
+  const std::size_t bytes = derived && field.width == 0 ? 8 : field.byte_count();
   const bool wide = bytes > 4;
   const bool whole = derived || (field.first_bit % 8U == 0 && field.width == bytes * 8);
   const std::uint64_t ones = field.width >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << field.width) - 1;
@@ -151,10 +164,6 @@ void add_row(int protocol, int* id, const Field& field, const char* filter, bool
   if (field.kind == Kind::kBool) {
     add_field(protocol, id, name, filter, FT_BOOLEAN, mask == 0 ? int{BASE_NONE} : static_cast<int>(bytes * 8), names,
               mask, blurb);
-    return;
-  }
-  if (derived && field.unit == Unit::kNanosecond) {
-    add_field(protocol, id, name, filter, FT_RELATIVE_TIME, BASE_NONE, nullptr, 0, blurb);
     return;
   }
   const bool is_signed = field.kind == Kind::kSigned;
@@ -224,6 +233,37 @@ void register_layouts() {
     if (protocol == nullptr) continue;
     auto& place = all.derived[protocol->name].emplace_back(row.field, -1);
     add_row(protocol->id, &place.second, *row.field, filter_name(row.protocol, {}, row.field->key), true);
+  }
+}
+
+void register_signals() {
+  Registry& all = registry();
+  const int protocol = find_protocol("rtex")->id;
+  const auto collect = [&all](std::string_view of, const Field& field) {
+    const bool is_number = field.kind == Kind::kSigned || field.kind == Kind::kUnsigned;
+    if (of != "rtex" || field.role != Role::kSignal || !is_number) return;
+    for (Signal& signal : all.signals) {
+      if (signal.key != field.key) continue;
+      signal.scaled = signal.scaled || field.scale != Ratio{};
+      return;
+    }
+    Signal& signal = all.signals.emplace_back();
+    signal.key = field.key;
+    signal.row = &field;
+    signal.scaled = field.scale != Ratio{};
+  };
+  for (const Layout* layout : all_layouts()) {
+    for (const Field& field : layout->fields) collect(layout->protocol, field);
+  }
+  for (const DerivedField& row : all_derived()) collect(row.protocol, *row.field);
+  for (Signal& signal : all.signals) {
+    all.signal_of.emplace(signal.key, &signal);
+    for (std::size_t axis = 0; axis < kAxes; ++axis) {
+      const std::string label = std::string(signal.row->label) + ", axis " + std::to_string(axis);
+      add_field(protocol, &signal.fields[axis], all.texts.keep(label),
+                filter_name("rtex", "axis" + std::to_string(axis), signal.key), signal.scaled ? FT_DOUBLE : FT_INT64,
+                signal.scaled ? int{BASE_NONE} : int{BASE_DEC}, nullptr, 0, blurb_of(*signal.row));
+    }
   }
 }
 
@@ -343,6 +383,7 @@ void register_experts() {
 void register_fields() {
   register_protocols();
   register_layouts();
+  register_signals();
   for (ProtocolRow& protocol : registry().protocols) {
     if (protocol.name == "rtex" || protocol.name == "dnet") register_links(protocol);
   }
@@ -378,6 +419,13 @@ int field_of(const Derived& derived) {
     if (field == derived.field) return id;
   }
   return -1;
+}
+
+AxisSignal axis_signal(const Field& field, std::int16_t mac_id) {
+  if (field.role != Role::kSignal || mac_id < 0 || static_cast<std::size_t>(mac_id) >= kAxes) return {};
+  const auto found = registry().signal_of.find(field.key);
+  if (found == registry().signal_of.end()) return {};
+  return {found->second->fields[static_cast<std::size_t>(mac_id)], found->second->scaled};
 }
 
 const LinkFields& link_fields(Protocol protocol) {

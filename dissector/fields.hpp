@@ -29,6 +29,14 @@ LayoutFields fields_of(const Layout* layout);
 // -1 for a field that all_derived() does not list.
 int field_of(const Derived& derived);
 
+// A ring's frame speaks of many axes, so graphs need a field of each: `rtex.axis3.actual_position` for every process
+// value. -1 where the field is none, or the MAC ID no axis's. Its values are numbers in the field's unit.
+struct AxisSignal {
+  int field = -1;
+  bool scaled = false;  // a floating-point field: the row has a scale
+};
+AxisSignal axis_signal(const Field& field, std::int16_t mac_id);
+
 // Links between frames, a set for each of the protocols that have nodes.
 struct LinkFields {
   int request_in = -1;        // this frame answers that one
@@ -44,7 +52,7 @@ struct LinkFields {
 };
 const LinkFields& link_fields(Protocol protocol);
 
-// Of findings.
+// Of findings (protocol `servotrace`).
 struct FindingFields {
   int rule = -1;
   int slug = -1;

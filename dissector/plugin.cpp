@@ -4,6 +4,7 @@
 #include "dissector/entries.hpp"
 #include "dissector/fields.hpp"
 #include "dissector/preferences.hpp"
+#include "dissector/statistics.hpp"
 #include "dissector/ws.hpp"
 
 #define SERVOTRACE_EXPORT __attribute__((visibility("default"))) extern
@@ -25,6 +26,7 @@ static void register_protocols() {
   servotrace::plugin::register_fields();
   servotrace::plugin::register_preferences();
   servotrace::plugin::register_entries();
+  servotrace::plugin::register_statistics();
 }
 
 static void hand_off() { servotrace::plugin::hand_off_entries(); }

@@ -3,6 +3,7 @@
 
 #include "dissector/entries.hpp"
 #include "dissector/fields.hpp"
+#include "dissector/tables.hpp"
 #include "dissector/ws.hpp"
 
 namespace servotrace::plugin {
@@ -57,6 +58,7 @@ void register_preferences() {
   prefs_register_filename_preference(servotrace, "settings_file", "Settings file (servotrace.toml)",
                                      "Names, profiles, parameters and limits, the same file the command line reads",
                                      &values.settings_file, FALSE);
+  register_tables(servotrace);
 }
 
 Carriers current_carriers() {
@@ -76,6 +78,7 @@ replay::FileSettings current_settings() {
   if (!has_file || carriers.ethertype != kEthertype) decoder.rtex.ethertype = carriers.ethertype;
   if (!has_file || carriers.udp_port != kUdpPort) decoder.rtex.udp_port = carriers.udp_port;
   if (!has_file || carriers.user_link_type != 0) decoder.rtex.user_link_type = carriers.user_link_type;
+  apply_tables(decoder);
   if (chosen().can_is_devicenet != FALSE || can_is_decoded_as_devicenet()) decoder.devicenet.assumed = true;
   return settings;
 }

@@ -156,9 +156,9 @@ const Settings* session_settings() {
   return self == nullptr ? nullptr : &self->settings.decoder;
 }
 
-bool apply_rule_settings(Finding& finding) {
+bool shown_finding(Finding& finding) {
   Session* const self = session().get();
-  return self == nullptr || self->filter.apply(finding);
+  return rule_row(finding.rule).hosts != Hosts::kOfflineOnly && (self == nullptr || self->filter.apply(finding));
 }
 
 void reset_session() { session().reset(); }

@@ -48,6 +48,55 @@ const char* node_text(wmem_allocator_t* pool, const NodeRef& node) {
       pool, servotrace::node_text(node, settings == nullptr ? std::string_view() : configured_name(*settings, node)));
 }
 
+namespace {
+
+// The value of a derived field of DeviceNet, or -1.
+std::int64_t derived_value(const Dissection& dissection, std::string_view key) {
+  for (const Derived& derived : dissection.derived) {
+    if (derived.field->key == key && derived.protocol == "dnet") return derived.value;
+  }
+  return -1;
+}
+
+const char* mac_text(wmem_allocator_t* pool, const Dissection& dissection, std::int64_t mac_id, bool is_master) {
+  if (mac_id < 0) return nullptr;
+  const NodeRef node{
+      .bus = dissection.bus, .protocol = Protocol::kDevicenet, .mac_id = static_cast<std::int16_t>(mac_id)};
+  const char* const text = node_text(pool, node);
+  return is_master ? wmem_strdup_printf(pool, "master, %s", text) : text;
+}
+
+}  // namespace
+
+Ends ends_text(wmem_allocator_t* pool, const Dissection& dissection) {
+  const bool command = dissection.direction == Direction::kCommand;
+  const bool response = dissection.direction == Direction::kResponse;
+  Ends ends;
+  if (dissection.protocol == Protocol::kDevicenet) {
+    ends.source = mac_text(pool, dissection, derived_value(dissection, "source"), command);
+    ends.destination = mac_text(pool, dissection, derived_value(dissection, "destination"), response);
+    return ends;
+  }
+  if (dissection.protocol != Protocol::kRtex || (!command && !response)) return ends;
+  // One axis by its name, several by their ring.
+  NodeRef drives{.bus = dissection.bus, .protocol = Protocol::kRtex};
+  bool several = false;
+  for (const Segment& segment : dissection.segments) {
+    if (segment.node.mac_id == kNoMacId) continue;
+    several = several || (drives.mac_id != kNoMacId && drives.place != segment.node.place);
+    drives = segment.node;
+  }
+  if (several) drives.mac_id = kNoMacId;
+  const char* const text = node_text(pool, drives);
+  ends.source = command ? "master" : text;
+  ends.destination = command ? text : "master";
+  return ends;
+}
+
+const char* node_sentence(wmem_allocator_t* pool, const Dissection& dissection, const NodeRef& node) {
+  return pool_text(pool, sentence_of(dissection, node, session_settings()));
+}
+
 const char* info_text(wmem_allocator_t* pool, const Dissection& dissection) {
   return pool_text(pool, sentence(dissection, session_settings()));
 }

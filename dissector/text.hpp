@@ -21,6 +21,16 @@ const char* unit_text(wmem_allocator_t* pool, const Field& field, std::int64_t v
 // "axis 3 (X)", "ring0", "can1", "capture".
 const char* node_text(wmem_allocator_t* pool, const NodeRef& node);
 
+// Who sent the frame and to whom, for the address columns: "master", "axis 3 (X)", "ring0".
+struct Ends {
+  const char* source = nullptr;  // nullptr: not known
+  const char* destination = nullptr;
+};
+Ends ends_text(wmem_allocator_t* pool, const Dissection& dissection);
+
+// What the frame says of one node, "axis 3 (X) command: CP 128000".
+const char* node_sentence(wmem_allocator_t* pool, const Dissection& dissection, const NodeRef& node);
+
 // The info column: a sentence. Empty where nothing was recognised.
 const char* info_text(wmem_allocator_t* pool, const Dissection& dissection);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "dissector/tree.hpp"
 
+#include <cstring>
 #include <type_traits>
 
 #include "decoder/core/slot.hpp"
@@ -49,13 +50,25 @@ tvbuff_t* tvb_of(const Canvas& canvas, const Segment& segment) {
   return segment.buffer == Buffer::kFrame ? canvas.frame->tvb : canvas.reassembled;
 }
 
-void draw_field(const Canvas& canvas, proto_tree* tree, const Segment& segment, Bytes bytes, const Field& field,
+// Hidden: the row itself shows the value. For graphs and filters.
+void draw_axis_signal(proto_tree* tree, const NodeRef& node, const Field& field,
+                      std::int64_t value, tvbuff_t* tvb, int offset, int length) {
+  if (node.protocol != Protocol::kRtex) return;
+  const AxisSignal signal = axis_signal(field, node.mac_id);
+  if (signal.field < 0) return;
+  const double scaled = static_cast<double>(value) * field.scale.numerator / field.scale.denominator;
+  proto_item_set_hidden(signal.scaled ? proto_tree_add_double(tree, signal.field, tvb, offset, length, scaled)
+                                      : proto_tree_add_int64(tree, signal.field, tvb, offset, length, value));
+}
+
+// Returns the item, nullptr where nothing was drawn.
+proto_item* draw_field(const Canvas& canvas, proto_tree* tree, const Segment& segment, Bytes bytes, const Field& field,
                 int id) {
   const std::size_t size = field.width == 0 ? bytes.size() - field.first_byte() : field.byte_count();
-  if (size == 0) return;
+  if (size == 0) return nullptr;
   const bool is_number = field.kind != Kind::kBytes && field.kind != Kind::kText;
   const std::int64_t value = is_number ? read(slot_of(field), bytes) : 0;
-  if (field.reserved && value == 0) return;
+  if (field.reserved && value == 0) return nullptr;
   const unsigned encoding = field.kind == Kind::kText        ? unsigned{ENC_ASCII} | unsigned{ENC_NA}
                             : field.kind == Kind::kBytes     ? unsigned{ENC_NA}
                             : field.order == ByteOrder::kBig ? unsigned{ENC_BIG_ENDIAN}
@@ -63,12 +76,16 @@ void draw_field(const Canvas& canvas, proto_tree* tree, const Segment& segment, 
   proto_item* const item =
       proto_tree_add_item(tree, id, tvb_of(canvas, segment), static_cast<int>(segment.offset + field.first_byte()),
                           static_cast<int>(size), encoding);
-  if (!is_number) return;
+  if (!is_number) return item;
+  draw_axis_signal(tree, segment.node, field, value, tvb_of(canvas, segment),
+                   static_cast<int>(segment.offset + field.first_byte()), static_cast<int>(size));
+  if (!is_visible(tree)) return item;
   const char* const unit = unit_text(canvas.pinfo->pool, field, value);
   if (*unit != '\0') proto_item_append_text(item, "%s", unit);
   const ValueName* const name = find_value(field.values, value);
   if (name != nullptr && !name->explanation.empty())
     proto_item_append_text(item, ": %s", pool_text(canvas.pinfo->pool, name->explanation));
+  return item;
 }
 
 void draw_segment(Canvas& canvas, proto_tree* parent, std::size_t index) {
@@ -78,6 +95,10 @@ void draw_segment(Canvas& canvas, proto_tree* parent, std::size_t index) {
   const Bytes bytes = dissection.bytes(segment);
   tvbuff_t* const tvb = tvb_of(canvas, segment);
   if (fields.fields == nullptr || tvb == nullptr) return;
+  if (segment.layout->fields.size() == 1 && !segment.guessed) {  // its only row says it all
+    canvas.segment_items[index] = draw_field(canvas, parent, segment, bytes, segment.layout->fields[0], fields.fields[0]);
+    return;
+  }
   proto_item* item = nullptr;
   proto_tree* const tree = proto_tree_add_subtree_format(
       parent, tvb, static_cast<int>(segment.offset), static_cast<int>(segment.length), fields.subtree, &item, "%s%s",
@@ -157,6 +178,9 @@ void draw_derived(const Canvas& canvas, const Derived& derived) {
   if (id < 0 || tree == nullptr) return;
   tvbuff_t* const tvb = canvas.frame->tvb;
   proto_item* item = nullptr;
+  if (derived.field->role == Role::kSignal)
+    draw_axis_signal(tree, derived.node, *derived.field, derived.value, tvb, 0, 0);
+  const bool wide = derived.field->width == 0 || derived.field->byte_count() > 4;
   switch (derived.field->kind) {
     case Kind::kText:
       item = proto_tree_add_string(tree, id, tvb, 0, 0, pool_text(canvas.pinfo->pool, derived.text));
@@ -168,14 +192,14 @@ void draw_derived(const Canvas& canvas, const Derived& derived) {
       return;
     case Kind::kSigned:
     case Kind::kUnsigned:
-      if (derived.field->unit == Unit::kNanosecond) {
-        const nstime_t time = {static_cast<time_t>(derived.value / kSecondNs),
-                               static_cast<int>(derived.value % kSecondNs)};
-        item = proto_tree_add_time(tree, id, tvb, 0, 0, &time);
+      if (derived.field->kind == Kind::kSigned) {
+        item = wide ? proto_tree_add_int64(tree, id, tvb, 0, 0, derived.value)
+                    : proto_tree_add_int(tree, id, tvb, 0, 0, static_cast<int>(derived.value));
       } else {
-        item = derived.field->kind == Kind::kSigned
-                   ? proto_tree_add_int64(tree, id, tvb, 0, 0, derived.value)
-                   : proto_tree_add_uint64(tree, id, tvb, 0, 0, static_cast<std::uint64_t>(derived.value));
+        item = wide ? proto_tree_add_uint64(tree, id, tvb, 0, 0, static_cast<std::uint64_t>(derived.value))
+                    : proto_tree_add_uint(tree, id, tvb, 0, 0, static_cast<std::uint32_t>(derived.value));
+      }
+      if (is_visible(tree)) {
         const char* const unit = unit_text(canvas.pinfo->pool, *derived.field, derived.value);
         if (*unit != '\0') proto_item_append_text(item, "%s", unit);
       }
@@ -300,7 +324,7 @@ void draw_finding(Canvas& canvas, proto_tree* parent, const Finding& finding) {
     add(f.rule, id);
     add(f.slug, pool_text(pool, row.slug));
     add(f.severity, pool_text(pool, name_of(finding.severity)));
-    add(f.actor, pool_text(pool, name_of(row.actor)));
+    add(f.actor, pool_text(pool, name_of(finding.actor)));
     add(f.title, pool_text(pool, row.title));
     add(f.message, text);
     add(f.node, node);
@@ -325,15 +349,9 @@ void draw_finding(Canvas& canvas, proto_tree* parent, const Finding& finding) {
   expert_add_info_format(canvas.pinfo, target, expert_of(finding.rule, finding.severity), "%s %s: %s", id, node, text);
 }
 
-// False for what is not shown: rules that need the whole file, and what the settings hide. Else `finding` is as the
-// settings have it.
-bool is_shown(Finding& finding) {
-  return rule_row(finding.rule).hosts != Hosts::kOfflineOnly && apply_rule_settings(finding);
-}
-
 void draw_findings(Canvas& canvas) {
   std::uint32_t shown = 0;
-  for (Finding finding : canvas.frame->findings) shown += is_shown(finding) ? 1U : 0U;
+  for (Finding finding : canvas.frame->findings) shown += shown_finding(finding) ? 1U : 0U;
   if (shown == 0) return;
   proto_tree* tree = nullptr;
   if (canvas.tree != nullptr) {
@@ -343,8 +361,13 @@ void draw_findings(Canvas& canvas) {
     tree = proto_item_add_subtree(item, subtrees().findings);
   }
   for (Finding finding : canvas.frame->findings) {
-    if (is_shown(finding)) draw_finding(canvas, tree, finding);
+    if (shown_finding(finding)) draw_finding(canvas, tree, finding);
   }
+}
+
+void set_address(address& place, const char* text) {
+  if (text == nullptr) return;
+  ::set_address(&place, AT_STRINGZ, static_cast<int>(std::strlen(text)) + 1, text);
 }
 
 void draw_columns(const Canvas& canvas) {
@@ -356,6 +379,9 @@ void draw_columns(const Canvas& canvas) {
     if (segment.layout->protocol != "rtex" && segment.layout->protocol != "dnet") protocol = segment.layout->protocol;
   }
   col_set_str(columns, COL_PROTOCOL, protocol_column(protocol));
+  const Ends ends = ends_text(canvas.pinfo->pool, dissection);
+  set_address(canvas.pinfo->src, ends.source);
+  set_address(canvas.pinfo->dst, ends.destination);
   const char* const info = info_text(canvas.pinfo->pool, dissection);
   if (*info != '\0') col_add_str(columns, COL_INFO, info);
 }

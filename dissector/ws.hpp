@@ -36,4 +36,7 @@ using WsBool = bool;
 using WsBool = gboolean;
 #endif
 
+// False where the tree is built for a filter or a statistic only: texts need not be made.
+inline bool is_visible(proto_tree* tree) { return tree != nullptr && PTREE_DATA(tree)->visible; }
+
 }  // namespace servotrace::plugin
