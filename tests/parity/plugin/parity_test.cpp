@@ -1,71 +1,19 @@
 // SPDX-License-Identifier: MIT
-// The plugin finds what the command line finds: rule, frame, severity and node of every finding of every shipped
-// capture, with one pass and with two, and with the settings of the capture's scenario.
-#include <gmock/gmock.h>
+// The plugin finds what the command line finds: rule, frame, severity and node of every finding, with one pass and with
+// two.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <fstream>
 #include <memory>
 
-#include "captures/simulator/scenario.hpp"
-#include "decoder/core/slot.hpp"
 #include "replay/capture/pcapng_writer.hpp"
 #include "tests/support/bytes.hpp"
-#include "tests/support/check.hpp"
-#include "tests/support/paths.hpp"
-#include "tests/support/tshark.hpp"
+#include "tests/support/plugin_findings.hpp"
+#include "tests/support/recording.hpp"
 
 namespace servotrace::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::vector<std::string> texts(const std::vector<Seen>& all) {
-  std::vector<std::string> result;
-  for (const Seen& seen : all) result.push_back(to_string(seen));
-  return result;
-}
-
-std::vector<Seen> seen_by(const Tshark& tshark, std::vector<std::string> arguments) {
-  const std::vector<std::string> tail = {"-Y", "servotrace",          "-T", "fields",
-                                         "-e", "frame.number",        "-e", "servotrace.rule",
-                                         "-e", "servotrace.severity", "-e", "servotrace.node"};
-  arguments.insert(arguments.end(), tail.begin(), tail.end());
-  const Ran ran = tshark.run(arguments);
-  EXPECT_EQ(ran.status, 0) << ran.err;
-  EXPECT_EQ(ran.err, "");
-  std::vector<Seen> all;
-  for (const auto& row : rows_of(ran.out)) {
-    if (row.size() != 4) {
-      ADD_FAILURE() << "a line of " << row.size() << " columns";
-      continue;
-    }
-    const auto rules = parts_of(row[1], ',');
-    const auto severities = parts_of(row[2], ',');
-    const auto nodes = parts_of(row[3], ',');
-    EXPECT_EQ(rules.size(), severities.size());
-    EXPECT_EQ(rules.size(), nodes.size());
-    for (std::size_t i = 0; i < std::min({rules.size(), severities.size(), nodes.size()}); ++i)
-      all.push_back({std::stoull(row[0]), rules[i], severities[i], nodes[i]});
-  }
-  std::sort(all.begin(), all.end());
-  return all;
-}
-
-void expect_parity(const Tshark& tshark, const fs::path& capture, const replay::FileSettings& settings = {},
-                   const std::vector<std::string>& preferences = {}) {
-  SCOPED_TRACE(capture.filename().string());
-  const std::vector<std::string> expected = texts(check_capture(capture, settings));
-  std::vector<std::string> arguments = {"-r", tshark.copy(capture).string()};
-  for (const std::string& preference : preferences) {
-    arguments.emplace_back("-o");
-    arguments.push_back(preference);
-  }
-  EXPECT_EQ(texts(seen_by(tshark, arguments)), expected) << "one pass";
-  arguments.emplace_back("-2");
-  EXPECT_EQ(texts(seen_by(tshark, arguments)), expected) << "two passes";
-}
 
 class Parity : public ::testing::Test {
  protected:
@@ -158,24 +106,22 @@ TEST_F(Parity, PreferencesActAsTheirSettings) {
                 {"dnet.can_is_devicenet:TRUE", "rtex.ethertype:88b6", "rtex.udp_port:4000"});
 }
 
-// Every shipped capture, as it opens with no setting and with the settings of its scenario.
+// As they open, with no setting; all of them in one file.
 TEST_F(Parity, ShippedCaptures) {
-  std::vector<fs::path> captures;
-  for (const auto& entry : fs::directory_iterator(source_dir() / "captures")) {
-    if (entry.path().extension() == ".pcapng") captures.push_back(entry.path());
-  }
-  std::sort(captures.begin(), captures.end());
-  for (const fs::path& capture : captures) {
-    expect_parity(tshark_, capture);
-    const auto scenario =
-        simulator::read_scenario(source_dir() / "captures" / "scenarios" / (capture.stem().string() + ".toml"));
-    if (!scenario || scenario->settings.empty()) continue;
-    const auto settings = replay::parse_settings(scenario->settings, capture.stem().string());
-    ASSERT_TRUE(settings) << settings.error().text();
-    const fs::path file = tshark_.folder() / "servotrace.toml";
-    std::ofstream(file) << scenario->settings;
-    expect_parity(tshark_, capture, *settings, {"servotrace.settings_file:" + file.string()});
-  }
+  std::vector<Recording> all;
+  for (const fs::path& capture : shipped_captures()) all.push_back(read_recording(capture));
+  if (all.empty()) GTEST_SKIP() << "no capture is shipped yet";
+  const fs::path file = tshark_.folder() / "shipped.pcapng";
+  write_capture(file, all);
+  expect_parity(tshark_, file);
+}
+
+TEST_F(Parity, Scenarios) {
+  const std::vector<Recording> all = simulated_recordings();
+  ASSERT_FALSE(all.empty());
+  const fs::path file = tshark_.folder() / "scenarios.pcapng";
+  write_capture(file, all);
+  expect_parity(tshark_, file);
 }
 
 }  // namespace
