@@ -110,7 +110,7 @@ TEST_F(Parity, PreferencesActAsTheirSettings) {
 TEST_F(Parity, ShippedCaptures) {
   std::vector<Recording> all;
   for (const fs::path& capture : shipped_captures()) all.push_back(read_recording(capture));
-  if (all.empty()) GTEST_SKIP() << "no capture is shipped yet";
+  ASSERT_FALSE(all.empty());
   const fs::path file = tshark_.folder() / "shipped.pcapng";
   write_capture(file, all);
   expect_parity(tshark_, file);
