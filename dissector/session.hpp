@@ -30,8 +30,8 @@ std::uint32_t next_of_node(std::uint32_t number, const NodeRef& node);
 
 // What the file is dissected with; nullptr before its first frame.
 const Settings* session_settings();
-// Changes the severity of a finding where the settings say so. False where it is not shown: the settings hide it, or its
-// rule needs the whole file.
+// Changes the severity of a finding where the settings say so. False where it is not shown: the settings hide it, or
+// its rule needs the whole file.
 bool shown_finding(Finding& finding);
 
 // A new file, or the same once more with other settings: what is known is forgotten.

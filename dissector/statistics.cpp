@@ -20,9 +20,7 @@ int& tap() {
 const Visit& frame_of(const void* data) { return *static_cast<const Visit*>(data); }
 
 // A node of a statistics tree that has children, made on first use.
-int branch(stats_tree* tree, const char* name, int parent) {
-  return tick_stat_node(tree, name, parent, TRUE);
-}
+int branch(stats_tree* tree, const char* name, int parent) { return tick_stat_node(tree, name, parent, TRUE); }
 void leaf(stats_tree* tree, const char* name, int parent) { tick_stat_node(tree, name, parent, FALSE); }
 // A leaf with count, average, minimum and maximum.
 void measure(stats_tree* tree, const char* name, int parent, double value) {
@@ -38,8 +36,8 @@ tap_packet_status count_findings(stats_tree* tree, packet_info* pinfo, epan_diss
     if (!shown_finding(finding)) continue;
     const Rule& row = rule_row(finding.rule);
     const int severity = branch(tree, pool_text(pinfo->pool, name_of(finding.severity)), 0);
-    const char* const rule = wmem_strdup_printf(pinfo->pool, "%s %s", pool_text(pinfo->pool, row.id),
-                                                pool_text(pinfo->pool, row.title));
+    const char* const rule =
+        wmem_strdup_printf(pinfo->pool, "%s %s", pool_text(pinfo->pool, row.id), pool_text(pinfo->pool, row.title));
     leaf(tree, node_text(pinfo->pool, finding.node), branch(tree, rule, severity));
     any = true;
   }

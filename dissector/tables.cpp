@@ -97,10 +97,10 @@ WsBool check_line(void* line, char** error) {
   return false;
 }
 
-constexpr char* ServotraceAxisLine::*kAxisTexts[] = {
-    &ServotraceAxisLine::ring,    &ServotraceAxisLine::mac_id,   &ServotraceAxisLine::name,
-    &ServotraceAxisLine::data_size, &ServotraceAxisLine::control, &ServotraceAxisLine::position,
-    &ServotraceAxisLine::parameters, &ServotraceAxisLine::max_speed};
+constexpr char* ServotraceAxisLine::*kAxisTexts[] = {&ServotraceAxisLine::ring,       &ServotraceAxisLine::mac_id,
+                                                     &ServotraceAxisLine::name,       &ServotraceAxisLine::data_size,
+                                                     &ServotraceAxisLine::control,    &ServotraceAxisLine::position,
+                                                     &ServotraceAxisLine::parameters, &ServotraceAxisLine::max_speed};
 constexpr char* ServotraceNodeLine::*kNodeTexts[] = {&ServotraceNodeLine::mac_id, &ServotraceNodeLine::name,
                                                      &ServotraceNodeLine::profile};
 constexpr auto& texts_of(const ServotraceAxisLine*) { return kAxisTexts; }
@@ -159,7 +159,8 @@ void register_tables(module_t* module) {
   static uat_field_t node_fields[] = {
       UAT_FLD_CSTRING(node, mac_id, "MAC ID", "0 to 63"),
       UAT_FLD_CSTRING(node, name, "Name", "What the node is called"),
-      UAT_FLD_CSTRING(node, profile, "Profile", "yaskawa-ns310, nsk-esb or generic; empty: recognised from the capture"),
+      UAT_FLD_CSTRING(node, profile, "Profile",
+                      "yaskawa-ns310, nsk-esb or generic; empty: recognised from the capture"),
       UAT_END_FIELDS};
   Tables& all = tables();
   uat_t* const axes =

@@ -51,8 +51,8 @@ tvbuff_t* tvb_of(const Canvas& canvas, const Segment& segment) {
 }
 
 // Hidden: the row itself shows the value. For graphs and filters.
-void draw_axis_signal(proto_tree* tree, const NodeRef& node, const Field& field,
-                      std::int64_t value, tvbuff_t* tvb, int offset, int length) {
+void draw_axis_signal(proto_tree* tree, const NodeRef& node, const Field& field, std::int64_t value, tvbuff_t* tvb,
+                      int offset, int length) {
   if (node.protocol != Protocol::kRtex) return;
   const AxisSignal signal = axis_signal(field, node.mac_id);
   if (signal.field < 0) return;
@@ -63,7 +63,7 @@ void draw_axis_signal(proto_tree* tree, const NodeRef& node, const Field& field,
 
 // Returns the item, nullptr where nothing was drawn.
 proto_item* draw_field(const Canvas& canvas, proto_tree* tree, const Segment& segment, Bytes bytes, const Field& field,
-                int id) {
+                       int id) {
   const std::size_t size = field.width == 0 ? bytes.size() - field.first_byte() : field.byte_count();
   if (size == 0) return nullptr;
   const bool is_number = field.kind != Kind::kBytes && field.kind != Kind::kText;
@@ -96,7 +96,8 @@ void draw_segment(Canvas& canvas, proto_tree* parent, std::size_t index) {
   tvbuff_t* const tvb = tvb_of(canvas, segment);
   if (fields.fields == nullptr || tvb == nullptr) return;
   if (segment.layout->fields.size() == 1 && !segment.guessed) {  // its only row says it all
-    canvas.segment_items[index] = draw_field(canvas, parent, segment, bytes, segment.layout->fields[0], fields.fields[0]);
+    canvas.segment_items[index] =
+        draw_field(canvas, parent, segment, bytes, segment.layout->fields[0], fields.fields[0]);
     return;
   }
   proto_item* item = nullptr;

@@ -126,8 +126,8 @@ TEST_F(Plugin, ASettingsFileWithAMistakeIsReported) {
 }
 
 TEST_F(Plugin, SourceAndDestination) {
-  const auto rows = rows_of(run({"-c", "2", "-T", "fields", "-e", "_ws.col.Source", "-e", "_ws.col.Destination", "-e",
-                                 "_ws.col.Protocol"}));
+  const auto rows = rows_of(
+      run({"-c", "2", "-T", "fields", "-e", "_ws.col.Source", "-e", "_ws.col.Destination", "-e", "_ws.col.Protocol"}));
   ASSERT_EQ(rows.size(), 2U);
   EXPECT_EQ(rows[0], (std::vector<std::string>{"master", "ring0", "RTEX"}));
   EXPECT_EQ(rows[1], (std::vector<std::string>{"ring0", "master", "RTEX"}));

@@ -10,8 +10,8 @@ namespace servotrace::test {
 namespace {
 
 constexpr std::uint32_t kSeeds = 20;
-constexpr std::size_t kFrames = 40;       // of each capture
-constexpr std::uint32_t kOneIn = 50;      // bytes changed, 2 %
+constexpr std::size_t kFrames = 40;   // of each capture
+constexpr std::uint32_t kOneIn = 50;  // bytes changed, 2 %
 constexpr std::size_t kCapturesASeed = 3;
 
 TEST(PluginFuzz, MutatedCaptures) {
@@ -24,7 +24,8 @@ TEST(PluginFuzz, MutatedCaptures) {
   std::vector<Recording> all;
   std::size_t next = 0;
   for (std::uint32_t seed = 0; seed < kSeeds; ++seed) {
-    for (std::size_t i = 0; i < kCapturesASeed; ++i) all.push_back(mutated(sources[next++ % sources.size()], seed, kOneIn));
+    for (std::size_t i = 0; i < kCapturesASeed; ++i)
+      all.push_back(mutated(sources[next++ % sources.size()], seed, kOneIn));
   }
   const std::filesystem::path file = tshark.folder() / "mutated.pcapng";
   write_capture(file, all);
