@@ -17,7 +17,7 @@ TEST(ParityOfEach, ShippedCapture) {
   const Tshark tshark;
   if (!tshark.available()) GTEST_SKIP() << tshark.why_not();
   for (const fs::path& capture : shipped_captures()) {
-    expect_parity(tshark, capture);
+    expect_parity(tshark, capture, {}, {"rtex.user_link_type:147"});
     const auto scenario =
         simulator::read_scenario(source_dir() / "captures" / "scenarios" / (capture.stem().string() + ".toml"));
     if (!scenario || scenario->settings.empty()) continue;
