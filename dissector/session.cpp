@@ -22,6 +22,8 @@ struct Session {
   Dissection pushed;                                                            // as the pipeline fills it
   Dissection shown;                                                             // as the store gives it back
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> interfaces;  // section and number to dense number
+  std::vector<std::string> interface_names;  // by dense number; empty where there is none
+  std::vector<std::pair<BusRef, std::string>> bus_names;
   std::uint32_t last_number = 0;
   std::int64_t last_offset = -1;
   std::vector<FrameStore::Answer> answers;
@@ -75,6 +77,10 @@ void push(Session& self, const packet_info& pinfo, Bytes bytes, std::uint32_t or
         (rec.presence_flags & WTAP_HAS_INTERFACE_ID) != 0 ? rec.rec_header.packet_header.interface_id : 0;
     const auto dense =
         self.interfaces.try_emplace({section, interface}, static_cast<std::uint32_t>(self.interfaces.size()));
+    if (dense.second) {
+      const char* const name = interface_name(&pinfo, interface, section);
+      self.interface_names.emplace_back(name == nullptr ? "" : name);
+    }
     RawFrame frame;
     frame.number = pinfo.num;
     frame.time_ns = std::int64_t{pinfo.abs_ts.secs} * kSecondNs + pinfo.abs_ts.nsecs;
@@ -149,6 +155,27 @@ std::uint32_t next_of_node(std::uint32_t number, const NodeRef& node) {
     }
   }
   return 0;
+}
+
+const char* bus_text(const BusRef& bus) {
+  Session* const self = session().get();
+  if (self == nullptr) return "";
+  std::size_t can_buses = 0;
+  for (const auto& [known, name] : self->bus_names) {
+    if (known == bus) return name.c_str();
+    can_buses += known.kind == BusKind::kCan ? 1U : 0U;
+  }
+  std::string name;
+  if (bus.kind == BusKind::kRing) {
+    name = "ring" + std::to_string(bus.number);
+  } else {
+    // An interface that carries several buses (cooked "any") names none of them.
+    if (bus.number == 0 && bus.interface_id < self->interface_names.size())
+      name = self->interface_names[bus.interface_id];
+    if (name.empty()) name = "can" + std::to_string(can_buses);
+  }
+  self->bus_names.emplace_back(bus, std::move(name));
+  return self->bus_names.back().second.c_str();
 }
 
 const Settings* session_settings() {

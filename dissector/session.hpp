@@ -28,6 +28,9 @@ Visit visit(packet_info* pinfo);
 std::span<const FrameStore::Answer> answers_of(std::uint32_t number);
 std::uint32_t next_of_node(std::uint32_t number, const NodeRef& node);
 
+// "ring0"; a CAN bus by its interface's name, else can<N> in the order of appearance. Lives as long as the file.
+const char* bus_text(const BusRef& bus);
+
 // What the file is dissected with; nullptr before its first frame.
 const Settings* session_settings();
 // Changes the severity of a finding where the settings say so. False where it is not shown: the settings hide it, or

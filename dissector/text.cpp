@@ -33,14 +33,7 @@ const char* unit_text(wmem_allocator_t* pool, const Field& field, std::int64_t v
 
 const char* node_text(wmem_allocator_t* pool, const NodeRef& node) {
   if (node.mac_id == kNoMacId) {
-    switch (node.bus.kind) {
-      case BusKind::kRing:
-        return wmem_strdup_printf(pool, "ring%u", unsigned{node.bus.number});
-      case BusKind::kCan:
-        return wmem_strdup_printf(pool, "can%u", node.bus.interface_id);
-      case BusKind::kNone:
-        break;
-    }
+    if (node.bus.kind != BusKind::kNone) return pool_text(pool, bus_text(node.bus));
     return "capture";
   }
   const Settings* const settings = session_settings();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 
 #include <epan/column-utils.h>
 #include <epan/epan.h>
@@ -38,5 +39,16 @@ using WsBool = gboolean;
 
 // False where the tree is built for a filter or a statistic only: texts need not be made.
 inline bool is_visible(proto_tree* tree) { return tree != nullptr && PTREE_DATA(tree)->visible; }
+
+// The name of a capture interface; nullptr where it has none.
+inline const char* interface_name(const packet_info* pinfo, std::uint32_t interface_id, std::uint32_t section) {
+#if SERVOTRACE_WS_AT_LEAST(4, 2)
+  const char* const name = epan_get_interface_name(pinfo->epan, interface_id, section);
+#else
+  static_cast<void>(section);
+  const char* const name = epan_get_interface_name(pinfo->epan, interface_id);
+#endif
+  return name == nullptr || std::strcmp(name, "unknown") == 0 ? nullptr : name;
+}
 
 }  // namespace servotrace::plugin

@@ -15,7 +15,7 @@ namespace {
 std::string node_name(const NodeRef& node, const Settings& settings) {
   if (node.mac_id != kNoMacId) return node_text(node, configured_name(settings, node));
   if (node.bus.kind == BusKind::kRing) return "ring" + std::to_string(node.bus.number);
-  if (node.bus.kind == BusKind::kCan) return "can" + std::to_string(node.bus.interface_id);
+  if (node.bus.kind == BusKind::kCan) return "can";
   return "capture";
 }
 

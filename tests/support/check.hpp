@@ -16,7 +16,7 @@ struct Seen {
   std::uint64_t frame = 0;
   std::string rule;
   std::string severity;
-  std::string node;  // "axis 3 (X)", "ring0", "can0", "capture"
+  std::string node;  // "axis 3 (X)", "ring0", "can" for any CAN bus, "capture"
   auto operator<=>(const Seen&) const = default;
 };
 
