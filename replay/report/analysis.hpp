@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// From findings to faults, causes and a verdict. Pure functions of the model.
+#pragma once
+
+#include <string>
+
+#include "decoder/pipeline/settings.hpp"
+#include "replay/bus_names.hpp"
+#include "replay/report/model.hpp"
+
+namespace servotrace::report {
+
+// How much of the time before a fault is looked at for its causes and shown in its close-up.
+inline constexpr DurationNs kCauseWindowNs = 30 * kSecondNs;
+
+// "axis 3 (X) on ring0", "ring0", "the capture".
+std::string who(const Finding& finding, const Settings& settings, const replay::BusNames& buses);
+
+// Fills faults (with windows and causes) from the findings; model.findings must be sorted by frame.
+void find_faults(Model& model, const Settings& settings, const replay::BusNames& buses);
+// Fills the verdict and what the capture cannot show; faults must be found.
+void judge(Model& model, const Settings& settings, const replay::BusNames& buses);
+
+// "12.345678 s" after the start of the capture.
+std::string at_time(const Model& model, TimeNs time_ns);
+
+}  // namespace servotrace::report

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "replay/report/build.hpp"
+
+#include "replay/report/analysis.hpp"
+#include "replay/report/collector.hpp"
+
+namespace servotrace::report {
+namespace {
+
+constexpr std::size_t kMaxEvidence = 20'000;  // sentences kept
+
+class Gather : public replay::FrameVisitor {
+ public:
+  explicit Gather(Collector& collector) : collector_(collector) {}
+  bool on_frame(const RawFrame& frame, const Dissection* dissection, const Pipeline&, const replay::Source&) override {
+    if (dissection != nullptr) collector_.add(frame, *dissection);
+    return true;
+  }
+
+ private:
+  Collector& collector_;
+};
+
+}  // namespace
+
+Result<Built> build_model(const std::filesystem::path& path, std::string name, const Settings& settings,
+                          replay::RuleFilter filter) {
+  replay::CaptureResult result = replay::run_file(path, name, settings);
+  if (result.error && result.format.empty()) return *result.error;
+  Built built;
+  Model& model = built.model;
+  built.buses = result.buses;
+  model.capture.file = std::move(name);
+  model.capture.format = result.format;
+  model.capture.frames = result.frames;
+  model.capture.checked_frames = result.summary.checked_frames;
+  model.capture.untracked_frames = result.summary.untracked_frames;
+  model.capture.has_time = result.first_time_ns.has_value();
+  model.capture.first_ns = result.first_time_ns.value_or(0);
+  model.capture.last_ns = result.last_time_ns.value_or(0);
+  if (result.error) model.capture.broken = result.error->text();
+  for (const replay::InterfaceInfo& interface : result.interfaces) model.interface_names.push_back(interface.name);
+  for (Finding& finding : result.findings) {
+    if (filter.apply(finding)) model.findings.push_back(finding);
+  }
+  for (std::size_t i = 0; i < kRuleCount; ++i) {
+    if (!filter.is_shown(static_cast<RuleId>(i))) continue;
+    model.rules.push_back({static_cast<RuleId>(i), result.checked[i], result.total[i]});
+  }
+  model.summary = std::move(result.summary);
+  find_faults(model, settings, built.buses);
+
+  std::vector<Watch> watches;
+  for (const Fault& fault : model.faults) {
+    const Finding& finding = model.findings[fault.finding];
+    watches.push_back({finding.frame, finding.time_ns, finding.node, fault.window_begin_ns, fault.window_end_ns});
+  }
+  std::set<std::uint64_t> evidence;
+  for (const Finding& finding : model.findings) {
+    if (evidence.size() >= kMaxEvidence) break;
+    evidence.insert(finding.frame);
+    for (const std::uint64_t related : finding.related) {
+      if (related != 0) evidence.insert(related);
+    }
+  }
+  Collector collector(settings, std::move(watches), std::move(evidence));
+  Gather gather(collector);
+  static_cast<void>(replay::run_file(path, model.capture.file, settings, {.visitor = &gather}));
+  collector.finish(model);
+  judge(model, settings, built.buses);
+  return built;
+}
+
+}  // namespace servotrace::report

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: MIT
+#include "replay/report/collector.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "decoder/core/slot.hpp"
+#include "decoder/render/sentence.hpp"
+#include "decoder/render/value.hpp"
+
+namespace servotrace::report {
+namespace {
+
+constexpr std::size_t kSeriesBins = 1024;
+constexpr std::size_t kCloseUpBins = 2048;
+constexpr std::size_t kMaxNodes = 512;
+constexpr std::size_t kScaleSamples = 64;  // intervals that choose the histogram's scale
+constexpr std::size_t kHistogramBins = 60;
+
+std::uint64_t key_of(const NodeRef& node) {
+  return static_cast<std::uint64_t>(node.bus.kind) << 60U | std::uint64_t{node.bus.interface_id} << 24U |
+         std::uint64_t{node.bus.number} << 16U | (static_cast<std::uint64_t>(node.mac_id) & 0xFFU) << 8U;
+}
+
+std::string text_of(const Field& field, std::int64_t raw, Bytes under) {
+  return field.kind == Kind::kBytes || field.kind == Kind::kText ? bytes_text(field, under) : value_text(field, raw);
+}
+
+void count(Histogram& histogram, DurationNs value) {
+  ++histogram.samples;
+  if (value < histogram.first_ns) {
+    ++histogram.below;
+    return;
+  }
+  const auto bin = static_cast<std::size_t>((value - histogram.first_ns) / histogram.bin_ns);
+  if (bin >= histogram.counts.size()) {
+    ++histogram.above;
+  } else {
+    ++histogram.counts[bin];
+  }
+}
+
+bool is_series(const Field& field) {
+  return field.kind == Kind::kUnsigned || field.kind == Kind::kSigned || field.kind == Kind::kBool;
+}
+
+}  // namespace
+
+Collector::Collector(const Settings& settings, std::vector<Watch> watches, std::set<std::uint64_t> evidence)
+    : settings_(settings), evidence_wanted_(std::move(evidence)) {
+  for (const Watch& watch : watches) {
+    close_ups_.emplace_back();
+    close_ups_.back().watch = watch;
+  }
+}
+
+std::size_t Collector::node_index(const NodeRef& node) {
+  const std::uint64_t key = key_of(node);
+  const auto found = node_by_key_.find(key);
+  if (found != node_by_key_.end()) return found->second;
+  if (nodes_.size() >= kMaxNodes) return kMaxNodes;
+  nodes_.emplace_back();
+  nodes_.back().node = node;
+  nodes_.back().node.channel = Channel::kNone;
+  node_by_key_.emplace(key, nodes_.size() - 1);
+  return nodes_.size() - 1;
+}
+
+void Collector::add_field(Node& node, std::size_t index, const RawFrame& frame, const Segment& segment,
+                          const Field& field, Bytes bytes) {
+  const std::int64_t value = read(slot_of(field), bytes);
+  if (field.role == Role::kState) {
+    const auto [entry, is_new] = node.tracks.try_emplace(&field, tracks_.size());
+    if (is_new) {
+      tracks_.push_back({.node = node.node,
+                         .layout = segment.layout,
+                         .field = &field,
+                         .first_ns = frame.time_ns,
+                         .first_value = value,
+                         .value = value});
+      return;
+    }
+    StateTrack& track = tracks_[entry->second];
+    if (track.value == value) return;
+    if (track.changes.size() < kMaxChanges) {
+      track.changes.push_back({frame.time_ns, frame.number, node.node, segment.layout, &field, track.value, value});
+    } else {
+      ++track.dropped;
+    }
+    track.value = value;
+    return;
+  }
+  const auto [entry, is_new] = node.signals.try_emplace(&field, signals_.size());
+  if (is_new)
+    signals_.push_back(
+        {node.node, filter_name(*segment.layout, field), std::string(field.label), &field, Series(kSeriesBins)});
+  signals_[entry->second].series.add(frame.time_ns, value);
+  for (CloseUp& close_up : close_ups_) {
+    if (frame.time_ns < close_up.watch.begin_ns || frame.time_ns > close_up.watch.end_ns) continue;
+    if (close_up.watch.node.mac_id != kNoMacId && key_of(close_up.watch.node) != key_of(node.node)) continue;
+    const auto [place, fresh] = close_up.index.try_emplace({index, &field}, close_up.signals.size());
+    if (fresh) {
+      close_up.signals.push_back(
+          {node.node, filter_name(*segment.layout, field), std::string(field.label), &field, Series(kCloseUpBins)});
+    }
+    close_up.signals[place->second].series.add(frame.time_ns, value);
+  }
+}
+
+void Collector::add_snapshots(const RawFrame& frame, const Dissection& dissection) {
+  // Only messages of watched nodes are kept, and only until their fault.
+  for (CloseUp& close_up : close_ups_) {
+    if (close_up.taken || close_up.watch.node.mac_id == kNoMacId) continue;
+    const std::uint64_t wanted = key_of(close_up.watch.node);
+    const std::size_t index = node_index(close_up.watch.node);
+    if (index >= kMaxNodes) continue;
+    Node& node = nodes_[index];
+    Snapshot made;
+    Direction direction = Direction::kNone;
+    for (const Segment& segment : dissection.segments) {
+      if (segment.node.mac_id == kNoMacId || key_of(segment.node) != wanted || segment.direction == Direction::kNone)
+        continue;
+      const Bytes bytes = dissection.bytes(segment);
+      direction = segment.direction;
+      made.parts.emplace_back(segment.layout, std::vector<std::uint8_t>(bytes.begin(), bytes.end()));
+    }
+    if (made.parts.empty()) continue;
+    made.frame = frame.number;
+    const auto slot_index = static_cast<std::size_t>(direction);
+    Snapshot& latest = node.latest[slot_index];
+    if (latest.frame != frame.number) {
+      if (latest.frame != 0 && !latest.same_bytes(made)) node.before[slot_index] = std::move(latest);
+      latest = std::move(made);
+    }
+  }
+}
+
+void Collector::take_messages(CloseUp& close_up) {
+  close_up.taken = true;
+  if (close_up.watch.node.mac_id == kNoMacId) return;
+  const std::size_t index = node_index(close_up.watch.node);
+  if (index >= kMaxNodes) return;
+  const Node& node = nodes_[index];
+  for (const Direction direction : {Direction::kCommand, Direction::kResponse}) {
+    const Snapshot& after = node.latest[static_cast<std::size_t>(direction)];
+    const Snapshot& before = node.before[static_cast<std::size_t>(direction)];
+    if (after.frame == 0) continue;
+    MessagePair pair;
+    pair.direction = direction;
+    pair.after_frame = after.frame;
+    pair.before_frame = before.frame;
+    for (const auto& [layout, bytes] : after.parts) {
+      const std::vector<std::uint8_t>* old = nullptr;
+      for (const auto& [other, other_bytes] : before.parts) {
+        if (other == layout) old = &other_bytes;
+      }
+      for_each_field(*layout, bytes, [&, layout = layout](const Field& field, std::int64_t raw, Bytes under) {
+        if (field.reserved) return;
+        FieldRow row;
+        row.filter = filter_name(*layout, field);
+        row.label = std::string(field.label);
+        row.after = text_of(field, raw, under);
+        if (old != nullptr) {
+          const Slot place = slot_of(field);
+          row.before = text_of(field, place.width == 0 ? 0 : read(place, *old), bytes_of(field, *old));
+        }
+        row.differs = before.frame != 0 && row.before != row.after;
+        pair.rows.push_back(std::move(row));
+      });
+    }
+    close_up.messages.push_back(std::move(pair));
+  }
+}
+
+void Collector::scale(Cycle& cycle) {
+  // The middle of the picture is the median, its width a fifth of it each way: jitter is what is looked for.
+  std::vector<DurationNs> sorted = cycle.first;
+  std::sort(sorted.begin(), sorted.end());
+  const DurationNs median = std::max<DurationNs>(sorted[sorted.size() / 2], 1);
+  DurationNs spread = std::max<DurationNs>(median / 5, static_cast<DurationNs>(kHistogramBins));
+  const DurationNs widest = std::max(sorted.back() - median, median - sorted.front());
+  while (spread < widest && spread < median) spread *= 2;
+  Histogram& histogram = cycle.histogram;
+  histogram.first_ns = std::max<DurationNs>(median - spread, 0);
+  histogram.bin_ns = std::max<DurationNs>(2 * spread / static_cast<DurationNs>(kHistogramBins), 1);
+  histogram.counts.assign(kHistogramBins, 0);
+}
+
+void Collector::add_cycle(const RawFrame& frame, const Dissection& dissection) {
+  if (dissection.protocol != Protocol::kRtex || dissection.direction != Direction::kCommand || !frame.has_time) return;
+  auto found =
+      std::find_if(cycles_.begin(), cycles_.end(), [&](const Cycle& cycle) { return cycle.bus == dissection.bus; });
+  if (found == cycles_.end()) {
+    if (cycles_.size() >= 64) return;
+    cycles_.emplace_back();
+    found = cycles_.end() - 1;
+    found->bus = dissection.bus;
+    found->histogram.bus = dissection.bus;
+    found->histogram.title = "Time between command records";
+  }
+  Cycle& cycle = *found;
+  const DurationNs interval = elapsed_ns(cycle.last_ns, frame.time_ns);
+  const bool usable = cycle.has_last && interval >= 0;
+  cycle.last_ns = frame.time_ns;
+  cycle.has_last = true;
+  if (!usable) return;
+  if (cycle.histogram.counts.empty()) {
+    cycle.first.push_back(interval);
+    if (cycle.first.size() < kScaleSamples) return;
+    scale(cycle);
+    for (const DurationNs value : cycle.first) count(cycle.histogram, value);
+    return;
+  }
+  count(cycle.histogram, interval);
+}
+
+void Collector::add(const RawFrame& frame, const Dissection& dissection) {
+  if (evidence_wanted_.count(frame.number) != 0) evidence_[frame.number] = sentence(dissection, &settings_);
+  if (dissection.protocol == Protocol::kNone) return;
+  for (const Segment& segment : dissection.segments) {
+    if (segment.node.mac_id == kNoMacId || segment.direction == Direction::kNone) continue;
+    std::size_t index = kMaxNodes;
+    Bytes bytes;
+    for (const Field& field : segment.layout->fields) {
+      if (field.role == Role::kPlain || !is_series(field)) continue;
+      if (index == kMaxNodes) {
+        index = node_index(segment.node);
+        if (index == kMaxNodes) break;
+        bytes = dissection.bytes(segment);
+      }
+      add_field(nodes_[index], index, frame, segment, field, bytes);
+    }
+  }
+  add_snapshots(frame, dissection);
+  for (CloseUp& close_up : close_ups_) {
+    if (!close_up.taken && frame.number >= close_up.watch.frame) take_messages(close_up);
+  }
+  add_cycle(frame, dissection);
+}
+
+void Collector::finish(Model& model) {
+  model.tracks = std::move(tracks_);
+  model.signals = std::move(signals_);
+  model.evidence = std::move(evidence_);
+  for (std::size_t i = 0; i < close_ups_.size() && i < model.faults.size(); ++i) {
+    model.faults[i].signals = std::move(close_ups_[i].signals);
+    model.faults[i].messages = std::move(close_ups_[i].messages);
+  }
+  for (Cycle& cycle : cycles_) {
+    if (cycle.histogram.counts.empty()) {
+      if (cycle.first.empty()) continue;
+      scale(cycle);
+      for (const DurationNs value : cycle.first) count(cycle.histogram, value);
+    }
+    model.histograms.push_back(std::move(cycle.histogram));
+  }
+}
+
+}  // namespace servotrace::report

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+// The model behind the report: what happened, as numbers and references to frames. Every page of the report (HTML,
+// Markdown, JSON) is drawn from it and nothing else.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "decoder/core/layout.hpp"
+#include "decoder/findings/finding.hpp"
+#include "decoder/pipeline/summary.hpp"
+#include "replay/report/series.hpp"
+
+namespace servotrace::report {
+
+// A state of a node changed: a field of role kState.
+struct Event {
+  TimeNs time_ns = 0;
+  std::uint64_t frame = 0;
+  NodeRef node;
+  const Layout* layout = nullptr;
+  const Field* field = nullptr;
+  std::int64_t before = 0;
+  std::int64_t after = 0;
+};
+
+// The history of one state field of one node: its changes, and how many did not fit.
+struct StateTrack {
+  NodeRef node;
+  const Layout* layout = nullptr;
+  const Field* field = nullptr;
+  TimeNs first_ns = 0;  // first seen
+  std::int64_t first_value = 0;
+  std::int64_t value = 0;  // latest
+  std::vector<Event> changes;
+  std::uint64_t dropped = 0;  // changes beyond the limit, counted
+};
+
+// One field of a message beside its value in an earlier message of the same kind.
+struct FieldRow {
+  std::string filter;
+  std::string label;
+  std::string before;  // empty: not in that message
+  std::string after;
+  bool differs = false;
+};
+
+// The last message of one direction at a fault, beside the last different one.
+struct MessagePair {
+  Direction direction = Direction::kNone;
+  std::uint64_t before_frame = 0;  // 0: none
+  std::uint64_t after_frame = 0;
+  std::vector<FieldRow> rows;
+};
+
+// A likely cause of a fault: a line of the symptom table (symptoms.hpp), or a violation that merely precedes it.
+struct Candidate {
+  std::string text;
+  std::string section;
+  bool supported = false;              // the capture shows the evidence; else only possible
+  std::optional<std::size_t> finding;  // index into Model::findings
+};
+
+struct Fault {
+  std::size_t finding = 0;             // index into Model::findings: what was reported
+  std::vector<std::size_t> preceding;  // violations before it at the same node or bus, latest last
+  std::vector<Candidate> causes;       // ranked, the likeliest first
+  std::vector<MessagePair> messages;
+  std::vector<Signal> signals;  // around it, at full resolution
+  TimeNs window_begin_ns = 0;
+  TimeNs window_end_ns = 0;
+};
+
+struct Histogram {
+  BusRef bus;
+  std::string title;
+  std::int64_t bin_ns = 0;    // width of a bin
+  std::int64_t first_ns = 0;  // start of the first bin
+  std::vector<std::uint64_t> counts;
+  std::uint64_t below = 0;
+  std::uint64_t above = 0;
+  std::uint64_t samples = 0;
+};
+
+struct RuleTotal {
+  RuleId rule{};
+  std::uint64_t checked = 0;
+  std::uint64_t findings = 0;
+};
+
+enum class VerdictKind : std::uint8_t { kNothingChecked, kClean, kViolations, kFault };
+
+struct Verdict {
+  VerdictKind kind = VerdictKind::kNothingChecked;
+  std::string headline;                // one sentence
+  std::vector<std::string> sentences;  // what the evidence says, what it cannot say
+};
+
+struct Capture {
+  std::string file;
+  std::string format;
+  std::uint64_t frames = 0;
+  std::uint64_t checked_frames = 0;
+  std::uint64_t untracked_frames = 0;
+  TimeNs first_ns = 0;
+  TimeNs last_ns = 0;
+  bool has_time = false;
+  std::string broken;  // why reading ended early; empty: it did not
+};
+
+struct Model {
+  Capture capture;
+  Verdict verdict;
+  std::vector<Finding> findings;  // by frame, rule, node; suppressed ones left out
+  Summary summary;
+  std::vector<StateTrack> tracks;
+  std::vector<Signal> signals;
+  std::vector<Fault> faults;  // in the order of time, at most kMaxFaults
+  std::uint64_t more_faults = 0;
+  std::vector<Histogram> histograms;
+  std::vector<RuleTotal> rules;
+  std::vector<std::string> cannot_show;
+  std::map<std::uint64_t, std::string> evidence;  // sentences of the frames findings name
+  std::vector<std::string> interface_names;       // by interface id
+};
+
+inline constexpr std::size_t kMaxFaults = 12;
+inline constexpr std::size_t kMaxChanges = 4000;  // a track
+
+}  // namespace servotrace::report
