@@ -12,6 +12,7 @@
 
 #include "decoder/core/layout.hpp"
 #include "decoder/findings/finding.hpp"
+#include "decoder/pipeline/dissection.hpp"
 #include "decoder/pipeline/summary.hpp"
 #include "replay/report/series.hpp"
 
