@@ -23,14 +23,13 @@ class Gather : public replay::FrameVisitor {
 
 }  // namespace
 
-Result<Built> build_model(const std::filesystem::path& path, std::string name, const Settings& settings,
-                          replay::RuleFilter filter) {
-  replay::CaptureResult result = replay::run_file(path, name, settings);
+Result<Built> build_model(const replay::CaptureInput& input, const Settings& settings, replay::RuleFilter filter) {
+  replay::CaptureResult result = replay::run_input(input, settings);
   if (result.error && result.format.empty()) return *result.error;
   Built built;
   Model& model = built.model;
   built.buses = result.buses;
-  model.capture.file = std::move(name);
+  model.capture.file = input.name;
   model.capture.format = result.format;
   model.capture.frames = result.frames;
   model.capture.checked_frames = result.summary.checked_frames;
@@ -65,7 +64,7 @@ Result<Built> build_model(const std::filesystem::path& path, std::string name, c
   }
   Collector collector(settings, std::move(watches), std::move(evidence));
   Gather gather(collector);
-  static_cast<void>(replay::run_file(path, model.capture.file, settings, {.visitor = &gather}));
+  static_cast<void>(replay::run_input(input, settings, {.visitor = &gather}));
   collector.finish(model);
   judge(model, settings, built.buses);
   return built;

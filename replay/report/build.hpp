@@ -2,11 +2,9 @@
 // Makes the model of a capture: one pass that finds, one that looks closely at what was found.
 #pragma once
 
-#include <filesystem>
-#include <string>
-
 #include "decoder/core/result.hpp"
 #include "replay/report/model.hpp"
+#include "replay/inputs.hpp"
 #include "replay/run.hpp"
 #include "replay/settings/rule_filter.hpp"
 
@@ -19,7 +17,6 @@ struct Built {
 
 // `path` must be a file: it is read twice. What is broken inside the file is told by the model; only a file that cannot
 // be opened is an error.
-Result<Built> build_model(const std::filesystem::path& path, std::string name, const Settings& settings,
-                          replay::RuleFilter filter);
+Result<Built> build_model(const replay::CaptureInput& input, const Settings& settings, replay::RuleFilter filter);
 
 }  // namespace servotrace::report
