@@ -5,7 +5,7 @@
 
 namespace servotrace::test {
 
-inline std::filesystem::path source_dir() { return SERVOTRACE_SOURCE_DIR; }
-inline std::filesystem::path binary_dir() { return SERVOTRACE_BINARY_DIR; }
+std::filesystem::path source_dir();
+std::filesystem::path binary_dir();
 
 }  // namespace servotrace::test
