@@ -35,6 +35,7 @@ struct Command {
 std::span<const Command> commands();
 
 int run_check(const Arguments& arguments);
+int run_report(const Arguments& arguments);
 int run_decode(const Arguments& arguments);
 int run_info(const Arguments& arguments);
 int run_explain(const Arguments& arguments);

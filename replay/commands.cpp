@@ -7,6 +7,7 @@ namespace {
 
 constexpr Command kCommands[] = {
     {"check", "verifies captures against the rules", &run_check},
+    {"report", "the post-mortem report: what failed first, what preceded it", &run_report},
     {"decode", "prints every message, field by field", &run_decode},
     {"info", "what is in a capture: buses, nodes, drives, cycles, learnt settings", &run_info},
     {"explain", "a rule's page: what, why, fix, manual section", &run_explain},

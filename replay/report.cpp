@@ -27,7 +27,8 @@ std::optional<Page> page_of(const std::filesystem::path& path) {
 }  // namespace
 
 int run_report(const Arguments& arguments) {
-  CLI::App app("The post-mortem report of captures: what failed first, what preceded it, and the evidence.", "servotrace report");
+  CLI::App app("The post-mortem report of captures: what failed first, what preceded it, and the evidence.",
+               "servotrace report");
   std::vector<std::string> captures;
   std::string out_path;
   app.add_option("CAPTURE", captures, "files or folders")->required();

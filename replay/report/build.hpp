@@ -3,8 +3,8 @@
 #pragma once
 
 #include "decoder/core/result.hpp"
-#include "replay/report/model.hpp"
 #include "replay/inputs.hpp"
+#include "replay/report/model.hpp"
 #include "replay/run.hpp"
 #include "replay/settings/rule_filter.hpp"
 
