@@ -23,6 +23,8 @@ void Transfer::begin(std::uint8_t key, Bytes payload, std::uint64_t frame, TimeN
   size_ = 0;
   if (acknowledged_) buffer_[size_++] = key;
   store(payload);
+  frames_.clear();
+  frames_.push_back(frame);
   first_frame_ = frame;
   last_frame_ = frame;
   first_time_ns_ = time_ns;
@@ -133,6 +135,7 @@ FragmentResult Transfer::push(FragmentType type, std::uint8_t count, std::uint8_
   }
   if (awaiting_ack_) result = fault(FragmentFault::kNotAwaited, count_);
   store(payload);
+  frames_.push_back(frame);
   count_ = count;
   type_ = type;
   awaiting_ack_ = acknowledged_;
@@ -196,7 +199,7 @@ FragmentResult Transfer::expire(TimeNs now_ns, DurationNs limit_ns, DurationNs a
 FragmentResult Transfer::abandon() {
   FragmentResult result;
   if (state_ == State::kActive) result = fault(FragmentFault::kInterrupted);
-  if (state_ == State::kActive || state_ == State::kDone || state_ == State::kBroken) state_ = State::kIdle;
+  if (state_ == State::kActive || state_ == State::kBroken) state_ = State::kIdle;
   return result;
 }
 

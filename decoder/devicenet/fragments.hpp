@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "decoder/core/bytes.hpp"
+#include "decoder/core/small_vector.hpp"
 #include "decoder/core/time.hpp"
 
 namespace servotrace::devicenet {
@@ -67,6 +68,8 @@ class Transfer {
   Bytes message() const { return Bytes(buffer_).first(size_); }
   std::uint64_t first_frame() const { return first_frame_; }
   std::uint64_t last_frame() const { return last_frame_; }
+  // The frames of the fragments stored, in order; of a long message the first ones.
+  const SmallVector<std::uint64_t, 48>& frames() const { return frames_; }
   TimeNs first_time_ns() const { return first_time_ns_; }
   // The message was longer than kCapacity: its end is missing.
   bool overflowed() const { return overflowed_; }
@@ -93,6 +96,7 @@ class Transfer {
   std::uint64_t last_frame_ = 0;
   TimeNs first_time_ns_ = 0;
   TimeNs last_time_ns_ = 0;
+  SmallVector<std::uint64_t, 48> frames_;
   std::array<std::uint8_t, kCapacity> buffer_ = {};
 };
 

@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: MIT
 #include "decoder/devicenet/session.hpp"
 
+#include "decoder/devicenet/bus.hpp"
+
 namespace servotrace::devicenet {
 
 struct BusSession::Impl {
-  bool devicenet = false;
+  Bus bus;
 };
 
-BusSession::BusSession(const Settings& settings, const BusRef&, Findings&) : impl_(std::make_unique<Impl>()) {
-  impl_->devicenet = settings.devicenet.assumed;
-}
+BusSession::BusSession(const Settings& settings, const BusRef& bus, Findings& findings)
+    : impl_(new Impl{Bus(settings, bus, findings)}) {}
 BusSession::~BusSession() = default;
-void BusSession::push(const Context&, const can::Frame&) {}
-void BusSession::assume() { impl_->devicenet = true; }
-bool BusSession::is_devicenet() const { return impl_->devicenet; }
-void BusSession::gap() {}
-void BusSession::finish(const Context&) {}
-void BusSession::summarise(BusSummary&) const {}
+void BusSession::push(const Context& context, const can::Frame& frame) { impl_->bus.push(context, frame); }
+void BusSession::assume() { impl_->bus.assume(); }
+bool BusSession::is_devicenet() const { return impl_->bus.is_devicenet(); }
+void BusSession::gap() { impl_->bus.gap(); }
+void BusSession::finish(const Context& context) { impl_->bus.finish(context); }
+void BusSession::summarise(BusSummary& summary) const { impl_->bus.summarise(summary); }
 
 }  // namespace servotrace::devicenet

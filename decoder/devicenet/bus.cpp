@@ -1,0 +1,418 @@
+// SPDX-License-Identifier: MIT
+#include "decoder/devicenet/bus.hpp"
+
+#include "decoder/devicenet/derived.hpp"
+#include "decoder/profiles/profiles.hpp"
+
+namespace servotrace::devicenet {
+namespace {
+
+constexpr DurationNs kErrorPause = kSecondNs;  // error frames closer together are one finding
+
+// SocketCAN error classes (the low bits of an error frame's identifier) and the controller's details (data byte 1).
+constexpr std::uint32_t kClassLostArbitration = 0x002;
+constexpr std::uint32_t kClassController = 0x004;
+constexpr std::uint32_t kClassNoAck = 0x020;
+constexpr std::uint32_t kClassBusOff = 0x040;
+constexpr std::uint32_t kClassRestarted = 0x100;
+constexpr std::uint32_t kClassCounters = 0x200;
+constexpr std::uint32_t kControllerReceiveOverflow = 0x01;
+constexpr std::uint32_t kControllerActive = 0x40;
+
+}  // namespace
+
+Bus::Bus(const Settings& settings, const BusRef& ref, Findings& findings)
+    : settings_(settings), ref_(ref), findings_(findings) {
+  owner_ = findings.owner(NodeRef{.bus = ref, .protocol = Protocol::kDevicenet});
+  capture_owner_ = findings.owner(NodeRef{.bus = BusRef{.interface_id = ref.interface_id}});
+  configured_ = settings.devicenet.assumed;
+  devicenet_ = configured_;
+}
+
+void Bus::assume() {
+  configured_ = true;
+  devicenet_ = true;
+}
+
+bool Bus::raise(const Context& context, const Report& report) {
+  if (!devicenet_) return false;
+  return findings_.raise(context.frame, report);
+}
+
+void Bus::derive(Dissection* dissection, const Field& field, std::int64_t value, const NodeRef& ref,
+                 std::string_view text) {
+  if (dissection == nullptr) return;
+  dissection->derived.push_back({.field = &field, .protocol = "dnet", .value = value, .text = text, .node = ref});
+}
+
+Node& Bus::node(std::int16_t mac_id) {
+  std::unique_ptr<Node>& place = nodes_[static_cast<std::size_t>(mac_id)];
+  if (place) return *place;
+  place = std::make_unique<Node>();
+  Node& made = *place;
+  const auto mac = static_cast<unsigned>(mac_id);
+  made.ref = NodeRef{.bus = ref_, .protocol = Protocol::kDevicenet, .mac_id = mac_id};
+  const auto owner = [&](Channel channel) {
+    NodeRef ref = made.ref;
+    ref.channel = channel;
+    return findings_.owner(ref);
+  };
+  made.owner = owner(Channel::kNone);
+  made.poll_owner = owner(Channel::kPoll);
+  made.explicit_owner = owner(Channel::kExplicit);
+  made.unconnected_owner = owner(Channel::kUnconnected);
+  made.channel.request_id = group2_id(mac, 4);
+  made.channel.unconnected_id = group2_id(mac, 6);
+  made.channel.response_id = group2_id(mac, 3);
+  if (const DevicenetNodeSettings* entry = settings_.node(mac_id)) {
+    if (!entry->profile.empty()) made.recognised = Recognised::kConfigured;
+    for (const DriveProfile* profile : kProfiles) {
+      if (profile->key == entry->profile) make_session(made, *profile, Recognised::kConfigured, 0);
+    }
+  }
+  return made;
+}
+
+void Bus::make_session(Node& node, const DriveProfile& profile, Recognised how, std::uint64_t frame) {
+  if (node.profile == &profile && node.recognised >= how) return;
+  node.profile = &profile;
+  node.recognised = how;
+  node.recognised_frame = frame;
+  node.session.reset();
+  std::erase(sessions_, &node);
+  if (profile.make_session == nullptr) return;
+  node.session = profile.make_session(settings_, node.ref, node.owner, how == Recognised::kGuessed);
+  if (node.session) sessions_.push_back(&node);
+}
+
+void Bus::gap() {
+  gap_pending_ = true;
+  gap_seen_ = true;
+  evidence_.gap();
+  next_deadline_ns_ = INT64_MAX;
+  const auto forget = [](ExplicitChannel& channel) {
+    channel.request.forget();
+    channel.response.forget();
+    for (PendingRequest& pending : channel.pending) pending.state = PendingRequest::State::kFree;
+  };
+  for (const auto& entry : nodes_) {
+    if (!entry) continue;
+    Node& node = *entry;
+    node.start = kStartMachine.next(node.start, StartEvent::kGap).to;
+    forget(node.channel);
+    node.exchanged = false;
+    node.late_allowance = 0;
+    node.explicit_connection = Known::kUnknown;
+    node.master = kNoMacId;
+    PollConnection& poll = node.poll;
+    poll.command.forget();
+    poll.response.forget();
+    poll.awaiting = false;
+    poll.has_command = false;
+    poll.polled = false;
+    poll.watched = false;
+    poll.guess_commands = 0;
+    poll.guess_responses = 0;
+    // What was lost may have been an allocation.
+    if (poll.state != PollState::kEstablished) poll.state = PollState::kUnknown;
+    if (node.session) node.session->on_gap();
+  }
+  for (DynamicConnection& connection : dynamic_) forget(connection.channel);
+  for (PendingOpen& open : opens_) open.used = false;
+}
+
+void Bus::push(const Context& context, const can::Frame& frame) {
+  const TimeNs now = context.frame.time_ns;
+  if (!begun_) begin_ns_ = now;
+  if (!begun_ || gap_pending_) known_since_ns_ = now;
+  begun_ = true;
+  gap_pending_ = false;
+  last_ns_ = now;
+  bits_ += 47 + frame.data.size() * 8;
+  served_ = nullptr;
+  const Identifier id = identify(frame.identifier);
+  if (!devicenet_) {
+    const EvidenceKind kind = evidence_.push(id, frame);
+    if (kind != EvidenceKind::kNone) {
+      devicenet_ = true;
+      evidence_kind_ = kind;
+      evidence_frame_ = context.frame.number;
+    }
+  }
+  if (now >= next_deadline_ns_) check_deadlines(context);
+  if (frame.error) {
+    push_error(context, frame);
+  } else if (frame.extended) {
+    invalid(context, frame, 1);
+  } else if (frame.remote) {
+    invalid(context, frame, 2);
+  } else if (id.kind() == MessageKind::kInvalid) {
+    invalid(context, frame, 0);
+    show_identifier({context, frame, id}, nullptr);
+  } else {
+    push_data({context, frame, id});
+  }
+  if (!frame.error) checked(rule("DN101"));
+  checked(rule("DN104"));
+  if (!devicenet_) return;
+  for (Node* entry : sessions_) {
+    if (entry->session.get() != served_) entry->session->on_time(context);
+  }
+}
+
+void Bus::invalid(const Context& context, const can::Frame& frame, std::int64_t kind) {
+  derive(context.dissection, kIdentifierField, frame.identifier, NodeRef{.bus = ref_});
+  raise(context, {.rule = rule("DN101"),
+                  .owner = owner_,
+                  .arguments = {kind, frame.identifier},
+                  .variant = kind << 32U | static_cast<std::int64_t>(frame.identifier)});
+}
+
+void Bus::push_error(const Context& context, const can::Frame& frame) {
+  if (context.dissection != nullptr) {
+    Dissection& dissection = *context.dissection;
+    derive(&dissection, kErrorClassField, frame.identifier, NodeRef{.bus = ref_});
+    if (fits(kErrorFrame, frame.data)) {
+      dissection.add({.layout = &kErrorFrame,
+                      .offset = frame.data_offset,
+                      .length = kErrorFrame.size,
+                      .node = {.bus = ref_, .protocol = Protocol::kDevicenet}});
+    }
+  }
+  std::uint32_t classes = frame.identifier & ~(kClassLostArbitration | kClassRestarted | kClassCounters);
+  if ((classes & kClassController) != 0 && fits(kErrorFrame, frame.data)) {
+    auto details = static_cast<std::uint32_t>(read(slot(kErrorFrame, "controller"), frame.data));
+    if ((details & kControllerReceiveOverflow) != 0) {
+      gap();
+      gap_pending_ = false;
+      known_since_ns_ = context.frame.time_ns;
+      raise(context, {.rule = rule("CP103"), .owner = capture_owner_, .arguments = {capture::kLostOverflow, 1}});
+    }
+    details &= ~(kControllerReceiveOverflow | kControllerActive);
+    if (details == 0) classes &= ~kClassController;
+  }
+  if (classes == 0) return;
+  if (error_seen_ && elapsed_ns(error_ns_, context.frame.time_ns) > kErrorPause) findings_.calm(owner_, rule("DN104"));
+  error_seen_ = true;
+  error_ns_ = context.frame.time_ns;
+  const bool bus_off = (classes & kClassBusOff) != 0;
+  const std::int64_t code = bus_off ? 91 : (classes & kClassNoAck) != 0 ? 79 : 0;
+  if (code != 0) derive(context.dissection, kScannerCodeField, code, NodeRef{.bus = ref_});
+  raise(context, {.rule = rule("DN104"),
+                  .owner = owner_,
+                  .arguments = {classes, code},
+                  .where = {0, 0},
+                  .variant = bus_off ? 1 : 0});
+}
+
+void Bus::show_identifier(const Arrival& arrival, const Node* node) const {
+  Dissection* const dissection = arrival.context.dissection;
+  if (dissection == nullptr) return;
+  const Identifier& id = arrival.id;
+  const NodeRef ref = node == nullptr ? NodeRef{.bus = ref_, .protocol = Protocol::kDevicenet} : node->ref;
+  dissection->direction = id.row->direction;
+  derive(dissection, kIdentifierField, id.value, ref);
+  derive(dissection, kMessageField, 0, ref, id.row->name);
+  if (id.group == 0) return;
+  derive(dissection, kGroupField, id.group, ref);
+  derive(dissection, kMessageIdField, id.message_id, ref);
+  std::int16_t source = id.source();
+  std::int16_t destination = id.destination();
+  const bool has_header = !arrival.can.data.empty();
+  const auto header_mac = [&] { return static_cast<std::int16_t>(read(slot(kHeader, "master"), arrival.can.data)); };
+  switch (id.kind()) {
+    case MessageKind::kExplicitRequest:
+    case MessageKind::kUnconnectedRequest:
+      if (has_header) source = header_mac();
+      break;
+    case MessageKind::kExplicitResponse:
+    case MessageKind::kUcmmRequest:
+    case MessageKind::kUcmmResponse:
+      if (has_header) destination = header_mac();
+      break;
+    case MessageKind::kPollCommand:
+    case MessageKind::kChangeOfStateAck:
+      if (node != nullptr) source = node->other_end();
+      break;
+    case MessageKind::kPollResponse:
+    case MessageKind::kChangeOfState:
+    case MessageKind::kBitStrobeResponse:
+    case MessageKind::kMulticastPollResponse:
+      if (node != nullptr) destination = node->other_end();
+      break;
+    default:
+      break;
+  }
+  if (source >= 0) derive(dissection, kSourceField, source, ref);
+  if (destination >= 0) derive(dissection, kDestinationField, destination, ref);
+  if (id.row->role == MacRole::kGroup) derive(dissection, kMulticastGroupField, id.mac_id, ref);
+  if (id.row->role == MacRole::kChecked) derive(dissection, kCheckedField, id.mac_id, ref);
+}
+
+void Bus::show_plain(const Arrival& arrival, const Node& node, const Layout& layout) const {
+  if (arrival.context.dissection == nullptr) return;
+  const Segment base{.offset = arrival.can.data_offset, .node = node.ref, .direction = arrival.id.row->direction};
+  show(*arrival.context.dissection, base, layout, 0, arrival.can.data.size());
+}
+
+void Bus::push_data(const Arrival& arrival) {
+  const Identifier& id = arrival.id;
+  const MessageKind kind = id.kind();
+  // Whose frame it is: the slave's by its place in the predefined set, else the sender's.
+  Node* const entry = id.mac_id == kNoMacId || id.row->role == MacRole::kGroup ? nullptr : &node(id.mac_id);
+  show_identifier(arrival, entry);
+  if (entry != nullptr && id.source() >= 0 && kind != MessageKind::kMacCheck) transmitted(arrival, *entry);
+  Dissection* const dissection = arrival.context.dissection;
+  const Bytes data = arrival.can.data;
+  switch (kind) {
+    case MessageKind::kPollCommand:
+      push_poll(arrival, *entry, true);
+      return;
+    case MessageKind::kPollResponse:
+      push_poll(arrival, *entry, false);
+      return;
+    case MessageKind::kExplicitRequest:
+    case MessageKind::kUnconnectedRequest:
+      push_explicit(arrival, *entry, entry->channel, true);
+      return;
+    case MessageKind::kExplicitResponse:
+      push_explicit(arrival, *entry, entry->channel, false);
+      return;
+    case MessageKind::kMacCheck:
+      push_mac_check(arrival);
+      return;
+    case MessageKind::kUcmmRequest:
+    case MessageKind::kUcmmResponse:
+      push_unconnected(arrival, kind == MessageKind::kUcmmRequest);
+      return;
+    case MessageKind::kGroup1:
+    case MessageKind::kGroup3:
+      push_dynamic(arrival);
+      return;
+    case MessageKind::kChangeOfState:
+    case MessageKind::kBitStrobeResponse:
+    case MessageKind::kMulticastPollResponse:
+    case MessageKind::kChangeOfStateAck:
+      show_plain(arrival, *entry, kIoData);
+      return;
+    case MessageKind::kBitStrobeCommand:
+      show_plain(arrival, *entry, fits(kBitStrobe, data) && data.size() == kBitStrobe.size ? kBitStrobe : kIoData);
+      return;
+    default:
+      break;
+  }
+  if (dissection == nullptr) return;
+  const Segment base{.offset = arrival.can.data_offset,
+                     .node = {.bus = ref_, .protocol = Protocol::kDevicenet},
+                     .direction = id.row->direction};
+  const auto show_known = [&](const Layout& layout, const Layout& rest) {
+    const std::size_t known = fits(layout, data) ? layout.size : 0;
+    show(*dissection, base, layout, 0, known);
+    show(*dissection, base, rest, known, data.size() - known);
+  };
+  if (kind == MessageKind::kOwnershipRequest || kind == MessageKind::kOwnershipResponse) {
+    show_known(kOwnership, kOwnershipData);
+  } else if (kind == MessageKind::kFaultedRequest || kind == MessageKind::kFaultedResponse) {
+    show_known(kFaulted, kFaultedData);
+  } else {
+    show(*dissection, base, kIoData, 0, data.size());
+  }
+}
+
+void Bus::note_transfer(const Transfer& transfer) {
+  note_deadline(transfer.deadline_ns(fragment_limit_ns(), ack_limit_ns()));
+}
+
+// What is past its deadline, on the first frame that shows it; and the next deadline of all.
+void Bus::check_deadlines(const Context& context) {
+  next_deadline_ns_ = INT64_MAX;
+  const TimeNs now = context.frame.time_ns;
+  const auto expire = [&](OwnerId owner, Transfer& transfer, std::int64_t kind, Actor sender) {
+    const FragmentResult result = transfer.expire(now, fragment_limit_ns(), ack_limit_ns());
+    report_fragment(context, owner, result, kind, FragmentType::kFirst, 0, {}, sender);
+    note_transfer(transfer);
+  };
+  const auto channel = [&](Node& node, ExplicitChannel& entry) {
+    check_requests(context, node, entry);
+    expire(node.explicit_owner, entry.request, 2, Actor::kMaster);
+    expire(node.explicit_owner, entry.response, 3, Actor::kDrive);
+  };
+  for (const auto& entry : nodes_) {
+    if (!entry) continue;
+    if (entry->recognised != Recognised::kGuessed) {  // a guess is no ground for a finding
+      if (io_size(*entry, true).fragmented) expire(entry->poll_owner, entry->poll.command, 0, Actor::kMaster);
+      if (io_size(*entry, false).fragmented) expire(entry->poll_owner, entry->poll.response, 1, Actor::kDrive);
+    }
+    channel(*entry, entry->channel);
+    check_watchdog(context, *entry);
+  }
+  for (DynamicConnection& connection : dynamic_) {
+    channel(node(static_cast<std::int16_t>(connection.server)), connection.channel);
+  }
+}
+
+void Bus::report_fragment(const Context& context, OwnerId owner, const FragmentResult& result, std::int64_t transfer,
+                          FragmentType type, std::uint8_t count, ByteRange where, Actor sender) {
+  const auto fault = static_cast<std::int64_t>(result.fault);
+  switch (result.fault) {
+    case FragmentFault::kNone:
+      return;
+    case FragmentFault::kCount:
+    case FragmentFault::kType:
+      raise(context, {.rule = rule("DN301"),
+                      .owner = owner,
+                      .arguments = {transfer, static_cast<std::int64_t>(type), count, result.detail},
+                      .where = where,
+                      .related = {result.related, 0},
+                      .variant = transfer * 16 + static_cast<std::int64_t>(type)});
+      return;
+    case FragmentFault::kNoFirst:
+    case FragmentFault::kInterrupted:
+    case FragmentFault::kStopped:
+      raise(context, {.rule = rule("DN302"),
+                      .owner = owner,
+                      .arguments = {transfer, fault},
+                      .where = where,
+                      .related = {result.related, 0},
+                      .variant = transfer * 16 + fault});
+      return;
+    case FragmentFault::kRepeated:
+    case FragmentFault::kNotAwaited:
+    case FragmentFault::kNoAck:
+    case FragmentFault::kAckCount:
+    case FragmentFault::kAckStatus: {
+      Report report{.rule = rule("DN303"),
+                    .owner = owner,
+                    .arguments = {transfer, fault, count},
+                    .where = where,
+                    .related = {result.related, 0},
+                    .variant = transfer * 16 + fault};
+      if (result.fault == FragmentFault::kAckStatus) report.actor = sender;
+      if (result.fault == FragmentFault::kNoAck) report.arguments[2] = result.detail;
+      raise(context, report);
+      return;
+    }
+  }
+}
+
+// The links from the fragment that completes a message to those before it.
+void Bus::show_fragments(const Arrival& arrival, const Transfer& transfer, const NodeRef& ref) const {
+  Dissection* const dissection = arrival.context.dissection;
+  if (dissection == nullptr) return;
+  for (const std::uint64_t frame : transfer.frames()) {
+    if (frame == arrival.number()) continue;
+    const bool first = frame == transfer.first_frame();
+    dissection->links.push_back({.kind = first ? LinkKind::kFirstFragment : LinkKind::kReassembledFrom,
+                                 .frame = frame,
+                                 .after_ns = first ? elapsed_ns(transfer.first_time_ns(), arrival.now_ns()) : 0,
+                                 .node = ref});
+  }
+}
+
+void Bus::finish(const Context& context) {
+  // A deadline is moved on only by frames of this bus: what passed was found on its last frame.
+  if (!devicenet_) return;
+  for (Node* entry : sessions_) entry->session->on_finish(context);
+}
+
+}  // namespace servotrace::devicenet

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "decoder/devicenet/evidence.hpp"
+
+#include "decoder/devicenet/decode.hpp"
+
+namespace servotrace::devicenet {
+
+std::string_view name_of(EvidenceKind kind) {
+  switch (kind) {
+    case EvidenceKind::kMacChecks:
+      return "two Duplicate MAC ID requests of one device";
+    case EvidenceKind::kAllocation:
+      return "an allocation and its answer";
+    case EvidenceKind::kExplicitPair:
+      return "an explicit request and its response";
+    case EvidenceKind::kPollPairs:
+      return "three poll commands and their responses";
+    case EvidenceKind::kNone:
+      break;
+  }
+  return "none";
+}
+
+void Evidence::gap() {
+  for (Node& node : nodes_) {
+    node.requested = false;
+    node.polled = false;
+    node.poll_pairs = 0;
+  }
+}
+
+EvidenceKind Evidence::push(const Identifier& id, const can::Frame& frame) {
+  if (frame.error || frame.extended || frame.remote || id.mac_id < 0) return EvidenceKind::kNone;
+  Node& node = nodes_[static_cast<std::size_t>(id.mac_id)];
+  const Bytes data = frame.data;
+  switch (id.kind()) {
+    case MessageKind::kMacCheck: {
+      if (data.size() != kMacCheck.size || read(slot(kMacCheck, "response"), data) != 0) break;
+      const auto vendor = static_cast<std::uint16_t>(read(slot(kMacCheck, "vendor_id"), data));
+      const auto serial = static_cast<std::uint32_t>(read(slot(kMacCheck, "serial_number"), data));
+      if (node.checked && node.vendor_id == vendor && node.serial_number == serial) return EvidenceKind::kMacChecks;
+      node.checked = true;
+      node.vendor_id = vendor;
+      node.serial_number = serial;
+      break;
+    }
+    case MessageKind::kUnconnectedRequest:
+    case MessageKind::kExplicitRequest: {
+      const Request request = parse_request(data, 0);
+      const bool fragment = !data.empty() && read(slot(kHeader, "fragmented"), data) != 0;
+      node.requested = !fragment && request.malformed == Malformation::kNone && !request.response_bit;
+      node.allocation = request.layout == &kAllocate;
+      node.header = request.header;
+      node.service = request.service;
+      break;
+    }
+    case MessageKind::kExplicitResponse: {
+      if (!node.requested) break;
+      node.requested = false;
+      const Response response = parse_response(data, node.service);
+      if (response.malformed != Malformation::kNone || !response.response_bit || response.header != node.header ||
+          load_be(data, 0, 1) != response.header) {
+        break;
+      }
+      const bool answers = response.is_error ? data.size() == kError.size : response.service == node.service;
+      if (!answers) break;
+      return node.allocation ? EvidenceKind::kAllocation : EvidenceKind::kExplicitPair;
+    }
+    case MessageKind::kPollCommand:
+      if (node.polled) node.poll_pairs = 0;
+      node.polled = true;
+      break;
+    case MessageKind::kPollResponse:
+      if (!node.polled) {
+        node.poll_pairs = 0;
+        break;
+      }
+      node.polled = false;
+      if (++node.poll_pairs == 3) return EvidenceKind::kPollPairs;
+      break;
+    default:
+      break;
+  }
+  return EvidenceKind::kNone;
+}
+
+}  // namespace servotrace::devicenet
