@@ -37,6 +37,13 @@ const Layout* Bus::value_layout(const Node& node, const Request& request) const 
   return row.attribute == nullptr ? nullptr : row.object->layout_of(*row.attribute);
 }
 
+// A drive's session shows the values of attributes its profile lists without layouts.
+bool Bus::shown_by_session(const Node& node, const Request& request) const {
+  if (!node.session || !devicenet_ || request.class_id <= kLastStandardClass) return false;
+  const Row row = find_row(node.profile->objects, request);
+  return row.attribute != nullptr && row.object->layouts.empty();
+}
+
 void Bus::show_names(const Arrival& arrival, const Node& node, const Request& request) const {
   Dissection* const dissection = arrival.context.dissection;
   if (const ValueName* name = find_value(kServiceNames, request.service))

@@ -146,6 +146,7 @@ class Bus {
   void check_attribute(const Arrival& arrival, Node& node, const Request& request, Bytes data);
   void check_get_of_set_only(const Arrival& arrival, Node& node, const PendingRequest& pending);
   const Layout* value_layout(const Node& node, const Request& request) const;
+  bool shown_by_session(const Node& node, const Request& request) const;
   void show_names(const Arrival& arrival, const Node& node, const Request& request) const;
 
   // unconnected.cpp

@@ -158,7 +158,7 @@ void show(Dissection& dissection, const Segment& base, const Layout& layout, std
 }
 
 void show_request(Dissection& dissection, const Segment& base, Bytes message, const Request& request,
-                  const Layout* value) {
+                  const Layout* value, bool data_elsewhere) {
   if (request.layout == nullptr) return;
   show(dissection, base, *request.layout, 0, request.layout->size);
   std::size_t shown = request.layout->size;
@@ -170,15 +170,17 @@ void show_request(Dissection& dissection, const Segment& base, Bytes message, co
     ++shown;
   }
   const std::size_t rest = message.size() - shown;
+  if (data_elsewhere && request.service == kSetAttribute) return;
   const bool known = value != nullptr && request.service == kSetAttribute && value_fits(*value, rest);
   show(dissection, base, known ? *value : kData, shown, rest);
 }
 
 void show_response(Dissection& dissection, const Segment& base, Bytes message, const Response& response,
-                   const Layout* value) {
+                   const Layout* value, bool data_elsewhere) {
   if (response.layout == nullptr) return;
   show(dissection, base, *response.layout, 0, response.layout->size);
   const std::size_t rest = message.size() - response.layout->size;
+  if (data_elsewhere && !response.is_error) return;
   const bool known = value != nullptr && !response.is_error && value_fits(*value, rest);
   show(dissection, base, known ? *value : kData, response.layout->size, rest);
 }

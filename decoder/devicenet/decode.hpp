@@ -62,11 +62,11 @@ Request parse_request(Bytes message, std::uint8_t body_format);
 Response parse_response(Bytes message, std::optional<std::uint8_t> request_service);
 
 // Adds the segments of a message that lies at `base.offset` of `base.buffer`. `value`: the layout of the attribute's
-// value, or nullptr. Used only where its size fits the data.
+// value, or nullptr. Used only where its size fits the data. `data_elsewhere`: the drive's session shows the data.
 void show_request(Dissection& dissection, const Segment& base, Bytes message, const Request& request,
-                  const Layout* value);
+                  const Layout* value, bool data_elsewhere);
 void show_response(Dissection& dissection, const Segment& base, Bytes message, const Response& response,
-                   const Layout* value);
+                   const Layout* value, bool data_elsewhere);
 // One segment of `layout` over `length` bytes at `offset` behind `base.offset`; nothing where `length` is 0.
 void show(Dissection& dissection, const Segment& base, const Layout& layout, std::size_t offset, std::size_t length);
 

@@ -63,7 +63,7 @@ inline constexpr Field kPollIntervalField{.key = "poll_interval_ns",
                                           .unit = Unit::kNanosecond,
                                           .section = kLinkSection,
                                           .explanation = "from the poll command before to this one, same node"};
-inline constexpr ValueName kPollStateNames[] = {{0, "unknown"},   {1, "not allocated"}, {2, "refused"},
+inline constexpr ValueName kPollStateNames[] = {{0, "unknown"},     {1, "not allocated"}, {2, "refused"},
                                                 {3, "configuring"}, {4, "established"},   {5, "timed out"}};
 inline constexpr Field kPollStateField{.key = "poll_state",
                                        .label = "Poll connection",

@@ -224,7 +224,7 @@ void Bus::handle_request(const Arrival& arrival, Node& node, ExplicitChannel& ch
   if (arrival.context.dissection != nullptr) {
     show_request(*arrival.context.dissection,
                  {.offset = whole.offset, .buffer = whole.buffer, .node = node.ref, .direction = Direction::kCommand},
-                 whole.bytes, request, value_layout(node, request));
+                 whole.bytes, request, value_layout(node, request), shown_by_session(node, request));
     show_names(arrival, node, request);
   }
   PendingRequest& pending = free_slot(channel);
@@ -328,7 +328,7 @@ void Bus::handle_response(const Arrival& arrival, Node& node, ExplicitChannel& c
   if (arrival.context.dissection != nullptr) {
     show_response(*arrival.context.dissection,
                   {.offset = whole.offset, .buffer = whole.buffer, .node = node.ref, .direction = Direction::kResponse},
-                  whole.bytes, response, value);
+                  whole.bytes, response, value, pending != nullptr && shown_by_session(node, pending->request));
     if (pending != nullptr) show_names(arrival, node, pending->request);
   }
   const OwnerId owner =
