@@ -49,8 +49,8 @@ fs::path write_mixed(const fs::path& folder) {
   EXPECT_TRUE(created) << created.error().text();
   replay::PcapngWriter& writer = **created;
   const std::uint32_t pdu = writer.add_interface(LinkType::kWiresharkUpperPdu, "ring");
-  const std::uint32_t can = writer.add_interface(LinkType::kCanSocketcan, "can0");
   const std::uint32_t ethernet = writer.add_interface(LinkType::kEthernet, "eth0");
+  const std::uint32_t can = writer.add_interface(LinkType::kCanSocketcan, "can0");
   const std::uint32_t cooked = writer.add_interface(LinkType::kLinuxSll2, "any");
   TimeNs time = 1'700'000'000 * kSecondNs;
   const auto write = [&](std::uint32_t interface, const std::vector<std::uint8_t>& bytes, std::size_t longer = 0) {
