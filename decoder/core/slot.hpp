@@ -100,6 +100,13 @@ constexpr Bytes bytes_of(const Field& field, Bytes bytes) {
   for (unsigned i = 0; i < byte_count; ++i) raw |= std::uint32_t{bytes[offset + i]} << (8U * i);
   return raw;
 }
+// Eight bytes at once, for comparing a block with the one before. Precondition: offset + 8 <= size.
+[[gnu::always_inline]] constexpr std::uint64_t load_le64(Bytes bytes, std::size_t offset) {
+  assert(offset + 8 <= bytes.size());
+  std::uint64_t raw = 0;
+  for (unsigned i = 0; i < 8; ++i) raw |= std::uint64_t{bytes[offset + i]} << (8U * i);
+  return raw;
+}
 [[gnu::always_inline]] constexpr std::uint32_t load_be(Bytes bytes, std::size_t offset, unsigned byte_count) {
   assert(offset + byte_count <= bytes.size() && byte_count <= 4);
   std::uint32_t raw = 0;

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// RX4: the control mode and its changes (SX-DSV02203 5-2, 7-6).
+#include "decoder/rtex/scene.hpp"
+
+namespace servotrace::rtex::checks {
+namespace {
+
+// The command the mode change left. One change reports the most specific rule: RX411, RX404, RX402, RX401.
+bool in_homing(const Scene& scene) {
+  const Node& node = *scene.node;
+  return node.comparable && !node.previous.is_nop() && is_homing(node.previous.main);
+}
+
+bool in_special_profile(const Scene& scene) {
+  const Node& node = *scene.node;
+  if (!node.profile.known || node.mode_before != static_cast<std::uint8_t>(Cyclic::kPp)) return false;
+  const std::uint8_t type = node.profile.type_code;
+  const bool special = type == 0x12 || type == 0x13 || (type >= 0x31 && type <= 0x33);
+  return special && in_progress(node).yes;
+}
+
+}  // namespace
+
+Outcome mode_change_not_normal(Scene& scene) {
+  const Node& node = *scene.node;
+  if (!node.comparable) return Outcome::kSilent;
+  if (in_homing(scene) || in_special_profile(scene) || node.main().process.busy) return Outcome::kSilent;
+  if (node.previous.is_nop() || node.previous.main.code == 0) return Outcome::kPassed;
+  return scene.raise({.arguments = {node.mode_before, node.command.cyclic, node.previous.main.code},
+                      .where = scene.bytes(1, 1),
+                      .related = {node.previous_frame, 0}});
+}
+
+Outcome mode_change_while_busy(Scene& scene) {
+  const Node& node = *scene.node;
+  if (in_homing(scene) || in_special_profile(scene)) return Outcome::kSilent;
+  const Process& process = node.main().process;
+  if (!process.busy) return Outcome::kPassed;
+  return scene.raise({.arguments = {node.mode_before, node.command.cyclic, process.code},
+                      .where = scene.bytes(1, 1),
+                      .related = {process.since.frame, 0}});
+}
+
+Outcome mode_change_too_soon(Scene& scene) {
+  const Node& node = *scene.node;
+  const std::int64_t needed = cycles_in(scene.ring, milliseconds(2));
+  if (!node.mode_changed_before || needed == 0) return Outcome::kSilent;
+  const std::int64_t passed = scene.now.cycle - node.mode_change_cycle;
+  if (passed >= needed) return Outcome::kPassed;
+  return scene.raise({.arguments = {node.mode_before, node.command.cyclic, passed, needed},
+                      .where = scene.bytes(1, 1),
+                      .related = {node.mode_change_frame, 0},
+                      .basis = scene.ring.cycle_ns.basis});
+}
+
+Outcome nop_after_start(Scene& scene) {
+  const Node& node = *scene.node;
+  if (!scene.ring.running || !node.mode_commanded) return Outcome::kSilent;
+  if (!node.command.is_nop()) return Outcome::kPassed;
+  return scene.raise({.where = scene.bytes(1, 1), .related = {node.comparable ? node.previous_frame : 0, 0}});
+}
+
+}  // namespace servotrace::rtex::checks

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+// Which checks run on which events, and the way of a record through the engine.
+#include "decoder/rtex/engine.hpp"
+
+#include "decoder/pipeline/rules.hpp"
+
+namespace servotrace::rtex {
+namespace {
+
+// The rows of kRules that have a check, by event: built by the compiler.
+struct Dispatch {
+  std::array<std::uint8_t, kRules.size()* 4> rows = {};
+  std::array<std::uint16_t, kEventCount + 1> first = {};
+};
+consteval Dispatch make_dispatch() {
+  Dispatch table{};
+  std::size_t next = 0;
+  for (unsigned event = 0; event < kEventCount; ++event) {
+    table.first[event] = static_cast<std::uint16_t>(next);
+    for (std::size_t row = 0; row < kRules.size(); ++row) {
+      if ((kRules[row].events >> event & 1U) != 0) table.rows[next++] = static_cast<std::uint8_t>(row);
+    }
+  }
+  table.first[kEventCount] = static_cast<std::uint16_t>(next);
+  return table;
+}
+constexpr Dispatch kDispatch = make_dispatch();
+static_assert(kRules.size() < 256);
+
+}  // namespace
+
+RecordHeader read_header(Bytes record) {
+  RecordHeader header;
+  header.response = read(slot(kRecord, "direction"), record) != 0;
+  header.sequence_valid = read(slot(kRecord, "sequence_valid"), record) != 0;
+  header.cycle_valid = read(slot(kRecord, "cycle_valid"), record) != 0;
+  header.sampled = read(slot(kRecord, "sampled"), record) != 0;
+  header.sequence = static_cast<std::uint32_t>(read(slot(kRecord, "sequence"), record));
+  header.cycle_ns = static_cast<std::uint32_t>(read(slot(kRecord, "cycle_ns"), record));
+  header.wide_nodes = static_cast<std::uint32_t>(read(slot(kRecord, "wide_nodes"), record));
+  header.node_count = static_cast<std::uint8_t>(read(slot(kRecord, "node_count"), record));
+  header.header_length = static_cast<std::uint32_t>(read(slot(kRecord, "header_length"), record));
+  return header;
+}
+
+void Engine::run(Scene& scene, Events events) {
+  Events done = 0;
+  for (unsigned event = 0; event < kEventCount; ++event) {
+    const Events bit = 1U << event;
+    if ((events & bit) == 0) continue;
+    for (std::size_t i = kDispatch.first[event]; i < kDispatch.first[event + 1]; ++i) {
+      const std::size_t place = kDispatch.rows[i];
+      const RtexRule& rule = kRules[place];
+      if ((rule.events & done) != 0) continue;  // it ran for an earlier event of this block
+      if (rule.row.needs_every_cycle && ring_.sampled) continue;
+      if (rule.scope == Scope::kChannel && scene.channel == nullptr) continue;
+      if (rule.scope == Scope::kNode && scene.node == nullptr) continue;
+      scene.rule = id_of(place);
+      scene.owner = rule.scope == Scope::kRing   ? ring_.owner
+                    : rule.scope == Scope::kNode ? scene.node->owner
+                                                 : scene.channel->owner;
+      const Outcome outcome = rule.check(scene);
+      if (outcome == Outcome::kSilent) continue;
+      ring_.findings.checked(scene.rule);
+      if (outcome == Outcome::kPassed) ring_.findings.calm(scene.owner, scene.rule);
+    }
+    done |= bit;
+  }
+}
+
+// For what the engine itself finds: the same as a check that raised.
+void Engine::report(Scene& scene, RuleId rule, OwnerId owner, Report given) {
+  if (rule_row(rule).needs_every_cycle && ring_.sampled) return;
+  scene.rule = rule;
+  scene.owner = owner;
+  scene.raise(given);
+}
+
+Scene Engine::ring_scene(const Context& context) {
+  return Scene{.ring = ring_, .context = context, .now = {context.frame.number, context.frame.time_ns, ring_.cycle}};
+}
+
+void Engine::push(const Context& context, const RecordPlace& place) {
+  const Bytes record = context.frame.bytes.subspan(place.offset, place.length);
+  const RecordHeader header = read_header(record);
+  ring_.shared_carrier = place.carrier == Carrier::kEthernet || place.carrier == Carrier::kUdp;
+  ring_.time_resolution_ns = context.frame.time_resolution_ns;
+  ring_.sampled = header.sampled;
+  take_header(context, header);
+  const Order order = take_sequence(context, header, record);
+  bool all_nop = !header.response;
+  if (order == Order::kNext && !header.response) {
+    std::uint32_t at = header.header_length;
+    for (unsigned i = 0; i < header.node_count; ++i) {
+      if (read(slot(kCommand, "cyclic_command"), record.subspan(at)) != 0) all_nop = false;
+      at += static_cast<std::uint32_t>(header.size(i));
+    }
+    take_command_record(context, header, all_nop);
+  }
+  std::uint32_t at = header.header_length;
+  bool answered = false;
+  for (unsigned i = 0; i < header.node_count; ++i) {
+    const BlockSize size = header.size(i);
+    const Bytes block = record.subspan(at, static_cast<std::size_t>(size));
+    const std::uint32_t block_at = place.offset + at;
+    Node& node = ring_.node(i);
+    node.wide = size == BlockSize::kWide;
+    if (order == Order::kNext) {
+      if (header.response) {
+        push_response(context, node, block, block_at, size);
+        answered = answered || node.answered;
+      } else {
+        push_command(context, node, block, block_at, size);
+      }
+    }
+    if (context.dissection != nullptr) decode(context, node, block, block_at, size, header.response);
+    at += static_cast<std::uint32_t>(size);
+  }
+  if (order == Order::kDuplicate) return;
+  if (header.response) {
+    ring_.last_response_frame = context.frame.number;
+    if (!ring_.running && answered && ring_.cycle_has_command && !ring_.awaiting_start)
+      ring_.running = ring_.had_run = true;
+    end_response_record(context);
+  } else {
+    ring_.last_command = {context.frame.number, context.frame.time_ns, ring_.cycle};
+    end_command_record(context);
+  }
+  judge_deadlines(context);
+}
+
+void Engine::decode(const Context& context, const Node& node, Bytes block, std::uint32_t block_at, BlockSize size,
+                    bool response) {
+  NodeRef ref = node.ref;
+  if (!node.mac_known) ref.mac_id = static_cast<std::int16_t>(read(slot(kCommand, "mac_id"), block));
+  decode_block(response ? layouts_of_response(block, size, node.format) : layouts_of_command(block, size, node.format),
+               block_at, ref, response ? Direction::kResponse : Direction::kCommand, *context.dissection);
+}
+
+void Engine::finish(const Context&) {}
+
+}  // namespace servotrace::rtex

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+// The questions the checks share: what is in progress, what moves, what a value means.
+#include "decoder/rtex/scene.hpp"
+
+namespace servotrace::rtex {
+
+Outcome Scene::raise(Report report) {
+  report.rule = rule;
+  report.owner = owner;
+  const bool fresh = ring.findings.raise(context.frame, report);
+  if (node != nullptr && rule_row(rule).actor == Actor::kMaster) remember(fresh);
+  return Outcome::kRaised;
+}
+
+// The finding a later report of the drive may answer: of an episode its first frame and its latest time.
+void Scene::remember(bool fresh) {
+  auto& judged = node->judged;
+  if (!fresh) {
+    for (Judged& entry : judged) {
+      if (entry.rule == rule && entry.owner == owner) {
+        entry.time_ns = now.time_ns;
+        return;
+      }
+    }
+  }
+  if (judged.full()) {
+    for (std::size_t i = 1; i < judged.size(); ++i) judged[i - 1] = judged[i];
+    judged.back() = {rule, owner, now.frame, now.time_ns};
+  } else {
+    judged.push_back({rule, owner, now.frame, now.time_ns});
+  }
+}
+
+Cause Scene::cause_among(std::span<const RuleId> rules, DurationNs within_ns) const {
+  if (node == nullptr) return {};
+  for (std::size_t i = node->judged.size(); i > 0; --i) {
+    const Judged& entry = node->judged[i - 1];
+    if (elapsed_ns(entry.time_ns, now.time_ns) > within_ns) continue;
+    for (const RuleId candidate : rules) {
+      if (candidate == entry.rule) return {entry.rule, entry.frame};
+    }
+  }
+  return {};
+}
+
+Basis weaker(const Basis& left, const Basis& right) {
+  if (left.kind == BasisKind::kAssumed || right.kind == BasisKind::kAssumed) return {BasisKind::kAssumed, 0};
+  if (left.kind == BasisKind::kCapture) return left;
+  if (right.kind == BasisKind::kCapture) return right;
+  return left.kind == BasisKind::kConfigured ? left : right;
+}
+
+Answer in_progress(const Node& node) {
+  const Known& ac_off = node.known[Fact::kAcOff];
+  if (!node.have_response || node.status_undefined || ac_off.certainly(1)) return {};
+  if (!node.response.in_progress) return {};
+  // Servo_Active = 1 and AC_OFF do not go together: the bit is In_Progress.
+  if (node.response.servo_active) return {true, {}};
+  return {true, ac_off.basis};
+}
+
+Speed actual_speed(const Node& node) {
+  const ResponseView& response = node.response;
+  if (!node.have_response || response.communication_error || response.main.error || response.main.echo != 0) return {};
+  const Known& chosen = node.known[Fact::kMonitor2];
+  const Known& unit = node.known[Fact::kSpeedUnit];
+  if (!chosen || !unit || (chosen.value != 0 && chosen.value != 0x05)) return {};
+  return {true, response.data2, unit.value == 1, weaker(chosen.basis, unit.basis)};
+}
+
+Position actual_position(const Node& node) {
+  if (!node.have_response || node.status_undefined) return {};
+  const Known& chosen = node.known[Fact::kMonitor1];
+  if (!chosen || (chosen.value != 0 && chosen.value != 0x07)) return {};
+  return {true, node.response.data1, chosen.basis};
+}
+
+Answer moves(const Ring& ring, const Node& node) {
+  if (!node.have_response || !node.response.servo_active || node.status_undefined) return {};
+  if (node.mode_known && node.mode == static_cast<std::uint8_t>(Cyclic::kPp)) {
+    const Answer progress = in_progress(node);
+    if (progress.yes) return progress;
+  }
+  const Speed speed = actual_speed(node);
+  if (speed.known) {
+    const auto& limit = ring.settings.limits.moving_speed;
+    const std::int64_t magnitude = speed.value < 0 ? -std::int64_t{speed.value} : std::int64_t{speed.value};
+    if (!speed.in_units) return {magnitude > limit.value_or(30), speed.basis};
+    if (limit) return {magnitude > *limit, speed.basis};
+  }
+  const std::int64_t band = ring.settings.limits.dead_band_units;
+  const Position position = actual_position(node);
+  if (band > 0 && position.known && node.response_comparable) {
+    const std::int64_t step = std::int64_t{position.value} - node.previous_response.data1;
+    return {step > band || step < -band, position.basis};
+  }
+  return {};
+}
+
+std::int64_t cycles_in(const Ring& ring, DurationNs duration_ns) {
+  if (!ring.cycle_ns || ring.cycle_ns.value <= 0) return 0;
+  // The cycles are thirds and halves of a millisecond in whole nanoseconds: round to the nearest.
+  return (duration_ns + ring.cycle_ns.value / 2) / ring.cycle_ns.value;
+}
+
+bool is_homing_search(const CommandPart& part) {
+  return part.code == static_cast<std::uint8_t>(NonCyclic::kHoming) && part.type_code >= 0x11 && part.type_code <= 0x1D;
+}
+
+bool is_homing(const CommandPart& part) {
+  return part.code == static_cast<std::uint8_t>(NonCyclic::kHoming) &&
+         (is_homing_search(part) || part.type_code == 0x21 || part.type_code == 0x22 || part.type_code == 0x31);
+}
+
+bool matches(const CommandPart& part, const ResponsePart& answer, bool sub) {
+  if (!answer.answers() || answer.echo != part.code) return false;
+  const auto code = static_cast<NonCyclic>(part.code);
+  const bool short_type = !sub && (code == NonCyclic::kHoming || code == NonCyclic::kProfile);
+  const std::uint16_t mask = short_type ? 0xFF : 0xFFF;
+  if ((part.type_code & mask) != (answer.type_code & mask)) return false;
+  if (!sub && code == NonCyclic::kAlarm && part.type_code == kAlarmAttribute && part.index == 0) return true;
+  return part.index == answer.index;
+}
+
+}  // namespace servotrace::rtex

@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: MIT
+// The state of a ring, at its narrowest owners: ring, node (a place in the connection order), channel. Filled by
+// session.cpp and handshake.cpp; the checks only read it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "decoder/core/durations.hpp"
+#include "decoder/core/small_vector.hpp"
+#include "decoder/pipeline/context.hpp"
+#include "decoder/rtex/knowledge.hpp"
+#include "decoder/rtex/machines.hpp"
+#include "decoder/rtex/views.hpp"
+
+namespace servotrace::rtex {
+
+inline constexpr std::size_t kMaxNodes = 32;
+inline constexpr std::uint8_t kWholeRing = 0xFF;  // the place of findings of a whole ring: no node's
+
+// A moment of the capture.
+struct Moment {
+  std::uint64_t frame = 0;
+  TimeNs time_ns = 0;
+  std::int64_t cycle = 0;  // communication cycles since the ring's first record
+};
+
+// A non-cyclic command the master holds.
+struct Hold {
+  CommandPart part;
+  Moment start;
+  bool seen_start = false;      // the capture holds its first record
+  bool every_response = false;  // and every response since
+  bool echoed = false;          // a response at least one cycle later echoed the code
+  Moment echo;                  // the first of them
+  bool refused = false;         // with CMD_Error
+  bool arguments_echoed = false;
+  bool complete = false;         // code, Type_Code and Index echoed, Busy = 0
+  bool ended = false;            // the last echo showed ERR, CMD_Error or an alarm: nothing more is expected
+  bool homing_complete = false;  // an echo showed Homing_Complete = 1
+  bool not_started = false;      // RX301, RX303: the drive does not start it
+};
+
+// What the drive is still working on (the catalogue's "Busy").
+struct Process {
+  bool busy = false;
+  std::uint8_t code = 0;
+  std::uint16_t type_code = 0;
+  Moment since;
+};
+
+// RX301 or RX305 on the assumption of the A4N-compatible start mode: the drive may prove it wrong.
+struct Withheld {
+  bool waiting = false;
+  bool arguments = false;  // RX305, else RX301
+  CommandPart part;
+  std::uint8_t before = 0;  // the code held until then
+  Moment at;
+};
+
+struct ChannelState {
+  Channel id = Channel::kNone;
+  OwnerId owner{};
+  Handshake state = Handshake::kUnknown;
+  HandshakeStep step = HandshakeStep::kNone;  // of the record being judged
+  Hold hold;
+  Process process;
+  Withheld withheld;
+  bool next_not_started = false;  // set by the check that found that the drive does not start the command
+};
+
+// Update_Counter of a node.
+struct CounterState {
+  std::uint32_t history = 0;  // two bits a cycle, the newest lowest
+  std::uint8_t history_length = 0;
+  bool comparable = false;  // the record before was this node's, outside NOP, without a gap
+  bool ever_moved = false;  // since the ring runs
+  std::uint32_t still = 0;  // records since the last move, where `phase_known`
+  bool phase_known = false;
+  std::uint32_t active_records = 0;  // outside NOP since the ring runs, saturated
+  std::uint32_t nop_records = 0;
+  bool nop_moved = false;
+  std::uint8_t nop_counter = 0;
+  bool unused_reported = false;  // RX211
+  bool start_pending = false;    // RX204 waits for the first move
+  Moment start;
+  std::uint8_t start_counter = 0;
+  std::uint32_t misses = 0;  // RX201 and RX202 since the ring runs
+  std::int64_t stuck_cycles = 0;
+  std::uint64_t last_move_frame = 0;
+  bool warned_error = false, warned_warning = false;   // RX206
+  std::uint32_t window_records = 0, window_moves = 0;  // for the updating ratio
+  bool echo_pending = false;                           // RX205 waits: the response may be a stale one
+  Moment echo_at;
+  std::uint8_t echo_wanted = 0, echo_seen = 0;
+};
+
+// The profile operation the drive last accepted.
+struct ProfileState {
+  bool known = false;
+  std::uint8_t type_code = 0;
+  std::uint8_t latch_sel1 = 0;
+  std::int32_t position = 0;
+};
+
+struct LatchState {
+  bool started1 = false, started2 = false;
+  bool shown = false;  // Latch_Comp was shown since
+  bool complete1 = false, complete2 = false;
+};
+
+struct AlarmState {
+  bool known = false;  // a status was seen in this run
+  bool alarm = false, warning = false;
+  bool was_known = false, was_alarm = false, was_warning = false;  // in the run before
+  std::uint8_t main = 0;                                           // as read, 0: not read
+  std::uint8_t sub = 0;
+  std::uint16_t warning_code = 0;
+  Moment alarm_rise, warning_rise;
+};
+
+struct Judged {
+  RuleId rule{};
+  OwnerId owner{};
+  std::uint64_t frame = 0;
+  TimeNs time_ns = 0;
+};
+
+// A string read four characters at a time (6-4).
+struct SystemString {
+  std::uint16_t type_code = 0;  // new code
+  std::array<char, 64> text{};
+  std::uint32_t have = 0;  // bit n: Index n was read
+  bool complete = false;
+  std::size_t length = 0;
+};
+
+struct UnsavedWrite {
+  std::uint16_t index = 0;
+  Attribute attribute = Attribute::kUnknown;
+  std::uint64_t frame = 0;
+  bool active = false;  // no reset or validation is needed any more
+  bool saved = false;   // in the EEPROM
+};
+
+struct Node {
+  std::uint8_t place = 0;
+  bool wide = false;
+  NodeRef ref;
+  OwnerId owner{};
+  std::array<ChannelState, 2> channels;  // main, sub
+  Knowledge known;
+  BlockFormat format;
+  const RtexAxisSettings* settings = nullptr;
+
+  // Commands
+  bool command_written = false;   // a block that is not all zero was seen
+  bool have_command = false;      // `command` is of this run
+  bool command_chain = false;     // no gap since `command`
+  bool comparable = false;        // and of the record before, without a gap
+  CommandView command, previous;  // `previous`: valid where comparable
+  std::array<std::uint64_t, 4> command_raw = {};
+  bool mode_known = false;
+  bool mode_commanded = false;  // in this run
+  bool servo_on_sent = false;   // the last Servo_On outside NOP
+  bool servo_on_known = false;
+  std::uint8_t mode = 0;         // the last cyclic code 1 to 4
+  std::uint8_t mode_before = 0;  // where mode_changed
+  bool mode_changed = false;     // in the record being judged
+  bool mode_changed_before = false;
+  std::int64_t mode_change_cycle = 0;
+  std::uint64_t mode_change_frame = 0;
+  std::uint64_t command_frame = 0, previous_frame = 0;
+  std::uint8_t open_command = 0, open_response = 0;  // not 0: a condition lasts, no short cut
+
+  // Responses
+  bool response_written = false;
+  bool have_response = false;        // `response` is of this run
+  bool response_chain = false;       // no gap since `response`
+  bool response_comparable = false;  // and of the cycle before, without a gap
+  ResponseView response, previous_response;
+  std::array<std::uint64_t, 4> response_raw = {};
+  std::uint64_t response_frame = 0;
+  std::int64_t response_cycle = 0;
+  bool answered = false;  // C/R = 1 seen in this run
+  bool mac_known = false;
+  bool mac_judged = false;  // RX102: a command was compared with the Actual MAC-ID
+  std::uint8_t actual_mac = 0;
+  bool synchronised = false;
+  bool ignore_stale = false;               // the block of before a reset is still in the memory
+  bool status_undefined = false;           // an attribute C validation is Busy
+  std::uint32_t communication_errors = 0;  // consecutive
+  std::uint32_t same_responses = 0;        // byte for byte, in a row, while the counter moved
+  bool counter_moved_since_response = false;
+  bool identical_response = false;  // the block is byte for byte the one of the cycle before
+  bool zero_response = false;
+
+  CounterState counter;
+  ProfileState profile;
+  LatchState latch;
+  AlarmState alarms;
+  SmallVector<Judged, 16> judged;  // the master's latest faults, for causes
+  std::array<SystemString, 12> strings;
+  std::array<std::unique_ptr<Durations>, 16> echo_times, done_times;  // by non-cyclic code
+
+  ChannelState& main() { return channels[0]; }
+  ChannelState& sub() { return channels[1]; }
+  const ChannelState& main() const { return channels[0]; }
+};
+
+struct Learnt {
+  std::int64_t value = 0;
+  Basis basis;
+  explicit operator bool() const { return basis.kind != BasisKind::kNone; }
+};
+
+struct Ring {
+  Ring(const Settings& given, const BusRef& bus_ref, Findings& list);
+
+  const Settings& settings;
+  BusRef bus;
+  Findings& findings;
+  OwnerId owner{};          // the whole ring
+  OwnerId capture_owner{};  // the capture: CP103
+
+  // The last record's header
+  bool have_header = false;
+  std::uint8_t node_count = 0;
+  std::uint32_t wide_nodes = 0;
+  std::uint32_t header_cycle_ns = 0;
+  bool sampled = false;
+
+  // Records
+  bool sequence_known = false;
+  bool gap_reported = false;   // records were lost, and somebody said so
+  std::uint32_t sequence = 0;  // of the cycle at hand
+  std::int64_t cycle = 0;      // counts communication cycles; jumps with the sequence
+  bool cycle_has_command = false, cycle_has_response = false;
+  std::uint32_t missing_responses = 0;
+  std::uint64_t missing_from = 0;     // the command of the first of them
+  Moment last_command;                // record
+  bool last_command_follows = false;  // no gap between the last command record and the one before it
+  std::uint64_t last_response_frame = 0;
+  bool shared_carrier = false;  // Ethernet or UDP: the time is the recorder's
+  std::uint32_t time_resolution_ns = 1;
+
+  bool running = false;
+  bool had_run = false;
+  bool ever_lost = false;  // RX115: the ring was lost with a servo on, and is not settled
+  std::uint64_t lost_frame = 0;
+  bool timeout_pending = false;  // RX112 over Ethernet or UDP: 32 records decide
+  std::uint32_t timeout_records = 0;
+  Moment timeout_from, timeout_at;
+  DurationNs timeout_interval_ns = 0;
+
+  // Learnt
+  Learnt cycle_ns;
+  Learnt ratio;
+  Learnt full_sync;
+  bool pair_is_bad = false;  // RX210
+  bool pair_judged = false;
+  std::uint32_t ratio_records = 0;
+  bool ratio_decided = false;
+  bool lag_decided = false;
+  std::int32_t lag = -1;  // -1: none
+  std::uint64_t lag_frame = 0;
+  std::uint32_t lag_records = 0;
+  std::array<std::uint32_t, 4> lag_mismatches = {};
+  std::uint32_t lag_blocks = 0;
+  std::uint32_t intervals = 0;
+  TimeNs first_interval_time = 0;
+
+  // TMG_CNT
+  bool tmg_seen = false;
+  std::uint64_t tmg_frame = 0;
+  bool tmg_value = false, tmg_known = false, tmg_phase = false;
+  std::int64_t tmg_toggle_cycle = 0, tmg_first_cycle = 0;
+  std::uint32_t tmg_good = 0, tmg_bad = 0;
+
+  std::array<std::unique_ptr<Node>, kMaxNodes> nodes;
+  Durations cycle_times;
+
+  // Software reset (6-3-1)
+  bool reset_sent = false;      // in this record a node went back from an echoed reset command
+  bool reset_reported = false;  // RX601, once a reset
+  bool awaiting_start = false;  // after a reset: what the memories hold is old until the ring starts again
+
+  Node& node(unsigned place);
+  std::span<const std::unique_ptr<Node>> all() const { return std::span(nodes).first(node_count); }
+};
+
+}  // namespace servotrace::rtex

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// What a check is handed: the state of ring, node and channel at the block being judged, and a way to report.
+#pragma once
+
+#include "decoder/rtex/ring.hpp"
+#include "decoder/rtex/rules.hpp"
+
+namespace servotrace::rtex {
+
+// The catalogue's id of the row at `place` of kRules.
+inline RuleId id_of(std::size_t place) {
+  static constexpr auto kFirst = static_cast<std::uint16_t>(rule("RX101"));
+  return static_cast<RuleId>(kFirst + place);
+}
+
+struct Scene {
+  Ring& ring;
+  const Context& context;
+  Node* node = nullptr;
+  ChannelState* channel = nullptr;
+  std::uint32_t block_at = 0;  // offset of the node's block in the frame
+  RuleId rule{};               // of the check that runs
+  OwnerId owner{};
+  Moment now;
+
+  const Limits& limits() const { return ring.settings.limits; }
+  // Bytes of the block, for highlighting.
+  ByteRange bytes(std::uint32_t first, std::uint32_t count) const { return {block_at + first, count}; }
+  bool is_sub() const { return channel != nullptr && channel->id == Channel::kSub; }
+  // The argument bytes of the channel.
+  ByteRange arguments() const { return is_sub() ? bytes(17, 7) : bytes(8, 8); }
+  ByteRange code() const { return is_sub() ? bytes(16, 1) : bytes(1, 1); }
+  const CommandPart& part() const { return is_sub() ? node->command.sub : node->command.main; }
+  const CommandPart& previous_part() const { return is_sub() ? node->previous.sub : node->previous.main; }
+  const ResponsePart& answer() const { return is_sub() ? node->response.sub : node->response.main; }
+
+  // Reports the check's rule at this frame; rule and owner are filled in.
+  Outcome raise(Report report);
+  void remember(bool fresh);
+  // The latest fault of the master among `rules` on this node that is not older than `within_ns`.
+  Cause cause_among(std::span<const RuleId> rules, DurationNs within_ns) const;
+};
+
+// --- questions the checks share (questions.cpp) ---------------------------------------------------------------------
+// In_Progress = 1, and known to be that.
+struct Answer {
+  bool yes = false;
+  Basis basis;
+};
+Answer in_progress(const Node& node);
+// The catalogue's "moves".
+Answer moves(const Ring& ring, const Node& node);
+// The actual speed of the last response, where it is shown and its unit is r/min or command units as Pr7.25 says.
+struct Speed {
+  bool known = false;
+  std::int32_t value = 0;
+  bool in_units = false;
+  Basis basis;
+};
+Speed actual_speed(const Node& node);
+// The actual position of the last response.
+struct Position {
+  bool known = false;
+  std::int32_t value = 0;
+  Basis basis;
+};
+Position actual_position(const Node& node);
+// The weaker of two.
+Basis weaker(const Basis& left, const Basis& right);
+// Communication cycles that make up `duration_ns`; 0 where the cycle is not known.
+std::int64_t cycles_in(const Ring& ring, DurationNs duration_ns);
+bool is_homing(const CommandPart& part);         // 11h to 1Dh, 21h, 22h, 31h: a homing command other than latch
+bool is_homing_search(const CommandPart& part);  // 11h to 1Dh
+bool matches(const CommandPart& part, const ResponsePart& answer, bool sub);
+
+}  // namespace servotrace::rtex

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include "decoder/rtex/tracking.hpp"
+
+namespace servotrace::rtex {
+namespace {
+
+// A completed parameter command (6-7).
+void track_parameter(Scene& scene, const CommandPart& part, const ResponsePart& answer) {
+  Node& node = *scene.node;
+  const auto value = static_cast<std::int32_t>(answer.data);
+  switch (part.type_code) {
+    case kParameterRead:
+      node.known.on_read(part.index, value, scene.now.frame);
+      break;
+    case kParameterWrite:
+      if (!answer.err) node.known.on_write(part.index, value, attribute_of(part.index), scene.now.frame);
+      break;
+    case kEepromWrite:
+    case kEepromWriteConventional:
+      if (!answer.err) node.known.on_eeprom_write();
+      break;
+    default:
+      return;
+  }
+  node.format = node.known.format();
+}
+
+}  // namespace
+
+void track_command(Scene&) {}
+
+void track_answer(Scene& scene, bool completed) {
+  Node& node = *scene.node;
+  if (scene.is_sub()) return;
+  const CommandPart& part = scene.channel->hold.part;
+  const ResponsePart& answer = scene.answer();
+  if (!completed) return;
+  if (answer.is(NonCyclic::kParameter)) track_parameter(scene, part, answer);
+  if (answer.is(NonCyclic::kReset) && part.type_code == kValidation && !answer.err) {
+    node.known.on_validation();
+    node.format = node.known.format();
+  }
+}
+
+void track_status(Scene& scene) {
+  Node& node = *scene.node;
+  if (node.status_undefined) return;
+  AlarmState& state = node.alarms;
+  if (node.response.alarm && !(state.known && state.alarm)) state.alarm_rise = scene.now;
+  if (node.response.warning && !(state.known && state.warning)) state.warning_rise = scene.now;
+  if (!node.response.alarm) state.main = state.sub = 0;
+  state.known = true;
+  state.alarm = node.response.alarm;
+  state.warning = node.response.warning;
+}
+
+void keep_status(ResponseView& response, const ResponseView& last, bool known) {
+  static constexpr ResponseView kNone{};
+  const ResponseView& from = known ? last : kNone;
+  response.servo_active = from.servo_active;
+  response.servo_ready = from.servo_ready;
+  response.alarm = from.alarm;
+  response.warning = from.warning;
+  response.torque_limited = from.torque_limited;
+  response.homing_complete = from.homing_complete;
+  response.in_progress = from.in_progress;
+  response.low_input = from.low_input;
+  response.high_input = from.high_input;
+  response.bit7_input = from.bit7_input;
+  response.data1 = from.data1;
+}
+
+}  // namespace servotrace::rtex

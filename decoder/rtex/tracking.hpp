@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// What commands and answers say about the drive: parameters, alarms, homing, latch and profile, strings.
+#pragma once
+
+#include "decoder/rtex/scene.hpp"
+
+namespace servotrace::rtex {
+
+// After the checks of a command block.
+void track_command(Scene& scene);
+// After the checks of an answer of scene.channel; `completed`: the first complete answer of the held command.
+void track_answer(Scene& scene, bool completed);
+// After the checks of a response block.
+void track_status(Scene& scene);
+// Puts the status and Response_Data1 of `last` into `response`, zero where there is none.
+void keep_status(ResponseView& response, const ResponseView& last, bool known);
+
+}  // namespace servotrace::rtex
