@@ -46,7 +46,8 @@ consteval bool legal(const std::array<Rule, kSize>& rules) {
 }
 }  // namespace detail
 
-// In the order of the ids. That no slug stands twice is held in catalogue.cpp, which alone pays for the comparison.
+// In the order of the ids. That no slug stands twice in a block is held in catalogue.cpp, which alone pays for the
+// comparison.
 inline constexpr auto kCatalogue =
     detail::join(capture::kRules, devicenet::kRules, esb::kRules, rtex::kRules, ns310::kRules);
 inline constexpr std::size_t kRuleCount = kCatalogue.size();
