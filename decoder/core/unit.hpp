@@ -32,6 +32,7 @@ enum class Unit : std::uint8_t {
   kByte,
   kAmpere,
   kNewtonMetre,
+  kKilogramMetre2,
   kTurn,
   kCount  // not a unit: how many there are
 };
@@ -88,6 +89,8 @@ constexpr std::string_view symbol(Unit unit) {
       return "A";
     case Unit::kNewtonMetre:
       return "N m";
+    case Unit::kKilogramMetre2:
+      return "kg m^2";
     case Unit::kTurn:
       return "turns";
   }

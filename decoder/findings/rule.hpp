@@ -35,6 +35,7 @@ enum class ArgumentFormat : std::uint8_t {
   kName,          // the name in `names`, else the number
   kHex2Name,      // 31h (name)
   kHex4Name,      // 002Eh (name)
+  kHex8Name,      // 00000002h (name)
   kDecimalName,   // 3 (name)
   kParameter,     // 0717h as Pr7.23
   kMilliseconds,  // nanoseconds, printed in ms with three places

@@ -30,6 +30,8 @@ std::string argument_text(const Argument& argument, std::int64_t value) {
       return with_name(fmt::format("{:02X}h", unsigned32));
     case ArgumentFormat::kHex4Name:
       return with_name(fmt::format("{:04X}h", unsigned32));
+    case ArgumentFormat::kHex8Name:
+      return with_name(fmt::format("{:08X}h", unsigned32));
     case ArgumentFormat::kDecimalName:
       return with_name(fmt::format("{}", value));
     case ArgumentFormat::kParameter:

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The input (master to drive) and output (drive to master) of the ESB, 10 bytes each (ESB 4.2, Table 4-1). What
-// PRM_SET_DATA and PRM_GET_DATA mean depends on the number: parameter_layouts.hpp lays a second layout over them.
+// PRM_SET_DATA and PRM_GET_DATA mean depends on the number: number_layouts.hpp lays a second layout over them.
 #pragma once
 
 #include "decoder/core/layout_check.hpp"
+#include "decoder/profiles/nsk_esb/number_layouts.hpp"
 
 namespace servotrace::esb {
 
@@ -141,6 +142,7 @@ inline constexpr Field kInputFields[] = {
      .first_bit = at(4, 0),
      .width = 16,
      .kind = Kind::kSigned,
+     .values = kNumberNames,
      .section = "ESB 4.3.14"},
     {.key = "prm_set_data",
      .label = "PRM_SET_DATA (Data)",
@@ -312,6 +314,7 @@ inline constexpr Field kOutputFields[] = {
      .first_bit = at(4, 0),
      .width = 16,
      .kind = Kind::kSigned,
+     .values = kNumberNames,
      .section = "ESB 4.4.15",
      .explanation = "-1 in the read-out of a program: its end."},
     {.key = "prm_get_data",
@@ -330,6 +333,15 @@ inline constexpr Layout kOutput{.protocol = "esb",
                                 .section = "ESB 4.2"};
 static_assert(well_formed(kOutput));
 
-inline constexpr const Layout* kLayouts[] = {&kInput, &kOutput};
+namespace detail {
+consteval auto all_layouts() {
+  std::array<const Layout*, 2 + kNumberLayouts.size() + std::size(kBitLayouts)> all{&kInput, &kOutput};
+  std::size_t next = 2;
+  for (const Layout& layout : kNumberLayouts) all[next++] = &layout;
+  for (const Layout* layout : kBitLayouts) all[next++] = layout;
+  return all;
+}
+}  // namespace detail
+inline constexpr auto kLayouts = detail::all_layouts();
 
 }  // namespace servotrace::esb

@@ -2,6 +2,7 @@
 // The drive profile nsk-esb.
 #pragma once
 
+#include "decoder/profiles/nsk_esb/derived.hpp"
 #include "decoder/profiles/nsk_esb/layouts.hpp"
 #include "decoder/profiles/profile.hpp"
 
@@ -17,6 +18,7 @@ inline constexpr DriveProfile kProfile{
     .command_size = 10,
     .response_size = 10,
     .layouts = kLayouts,
+    .derived = kDerived,
     .make_session = &make_session,
 };
 

@@ -82,7 +82,7 @@ void Session::judge_reports(const Context& context, const Message& message, cons
 
   if (response.command_error && !reported_.command_error) {
     raise(context, {.rule = rule("YS902"),
-                    .arguments = {phase_argument, command_ ? command_->code : kCodeNotRead},
+                    .arguments = {command_ ? command_->code : kCodeNotRead, phase_argument},
                     .where = status,
                     .related = {command_ ? command_->frame : 0},
                     .cause = first ? Cause{} : cause_of_refusal(context),
@@ -111,7 +111,7 @@ void Session::issue_alarm(const Context& context, std::int64_t code, ByteRange w
   pending_alarm_.active = false;
   const std::int64_t detail = code >= 0 && find_alarm(code) == nullptr ? kCodeUnknown : code;
   raise(context, {.rule = rule("YS901"),
-                  .arguments = {static_cast<std::int64_t>(pending_alarm_.phase), code, detail, detail},
+                  .arguments = {code, static_cast<std::int64_t>(pending_alarm_.phase), detail, detail},
                   .where = where,
                   .related = {pending_alarm_.frame == context.frame.number ? 0 : pending_alarm_.frame},
                   .cause = pending_alarm_.cause,
