@@ -205,18 +205,4 @@ constexpr const Layout* data_layout(std::int64_t number) {
   return row == nullptr || !row->has_data ? nullptr : &kNumberLayouts[static_cast<std::size_t>(row - kNumbers.data())];
 }
 
-namespace detail {
-consteval auto number_names() {
-  std::array<ValueName, kNumbers.size() + 1> names{};
-  names[0] = {-1, "end of the program"};
-  for (std::size_t i = 0; i < kNumbers.size(); ++i) {
-    const Number& row = kNumbers[i];
-    names[i + 1] = {row.number, row.mnemonic.empty() ? row.name : row.mnemonic, row.name};
-  }
-  return names;
-}
-}  // namespace detail
-// Values of PRM_SET_NO and PRM_GET_NO: mnemonic, or name where there is none.
-inline constexpr auto kNumberNames = detail::number_names();
-
 }  // namespace servotrace::esb

@@ -1370,4 +1370,18 @@ consteval bool numbers_in_order() {
 }  // namespace detail
 static_assert(detail::numbers_in_order(), "find_number needs the numbers in order");
 
+namespace detail {
+consteval auto number_names() {
+  std::array<ValueName, kNumbers.size() + 1> names{};
+  names[0] = {-1, "end of the program"};
+  for (std::size_t i = 0; i < kNumbers.size(); ++i) {
+    const Number& row = kNumbers[i];
+    names[i + 1] = {row.number, row.mnemonic.empty() ? row.name : row.mnemonic, row.name};
+  }
+  return names;
+}
+}  // namespace detail
+// Values of PRM_SET_NO and PRM_GET_NO: mnemonic, or name where there is none.
+inline constexpr auto kNumberNames = detail::number_names();
+
 }  // namespace servotrace::esb

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "decoder/profiles/nsk_esb/alarms.hpp"
-#include "decoder/profiles/nsk_esb/number_layouts.hpp"
+#include "decoder/profiles/nsk_esb/numbers.hpp"
 #include "decoder/profiles/phase.hpp"
 
 namespace servotrace::esb {

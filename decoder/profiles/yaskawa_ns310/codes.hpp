@@ -48,4 +48,11 @@ inline constexpr ValueName kHomingTypes[] = {
     {3, "Type 3", "Phase C of the encoder only."},
 };
 
+// Block commands (5.5.1, 5.5.2; Table 5.15 misprints 09h as 08h).
+inline constexpr ValueName kBlockCommands[] = {
+    {0x01, "modify attribute"},    {0x02, "wait equals"},  {0x03, "link if greater"},
+    {0x04, "link if less"},        {0x06, "delay"},        {0x07, "trajectory"},
+    {0x08, "trajectory and wait"}, {0x09, "speed change"}, {0x10, "home position travel"},
+};
+
 }  // namespace servotrace::ns310

@@ -161,6 +161,7 @@ void Session::judge_start(const Context& context, const Message& message, const 
   } else if (command.stops() && !alarm_clear) {
     fault(context, {.rule = rule("YS120"), .arguments = {which, command.hard_stop ? 1 : 0}, .where = bits});
   } else if (trajectory && command.is_motion()) {
+    judge_parameters_at_start(context, head);
     if (known) checked(context, rule("YS112"));
     // No other finding on the command, no known reason to refuse it: the drive must echo it.
     if (command_clean_ && clean_before && known && response_->enable_state && !response_->in_progress &&
@@ -170,7 +171,10 @@ void Session::judge_start(const Context& context, const Message& message, const 
     start_accepted(command);
   } else if (block) {
     checked(context, rule("YS301"));
+    judge_parameters_at_start(context, head);
+    judge_chain(context, message, command);
     candidate_ = Operation::kBlock;
+    homing_block_ = 0;
   }
 }
 

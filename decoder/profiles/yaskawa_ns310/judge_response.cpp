@@ -8,6 +8,8 @@ namespace {
 
 // A report waits this long for its code (catalogue, YS901).
 constexpr DurationNs kReportWaitNs = kSecondNs;
+// A pair of parameters is judged this long after the last Set (catalogue, YS401).
+constexpr DurationNs kSettleNs = kSecondNs;
 
 }  // namespace
 
@@ -58,6 +60,24 @@ void Session::judge_echoes(const Context& context, const Message& message, const
       start_wait_.end();
     }
   }
+}
+
+// YS202: a block 10h runs, and the capture shows the node's start and no homing since.
+void Session::judge_home_travel(const Context& context, const Message& message, const Response& response) {
+  const Block& block = blocks_.at(response.executing_block);
+  if (!response.block_in_execution || !block.command_known ||
+      block.command != static_cast<std::uint8_t>(BlockCommand::kHomeTravel)) {
+    homing_block_ = 0;
+    return;
+  }
+  if (homing_block_ == response.executing_block) return;
+  homing_block_ = response.executing_block;
+  checked(context, rule("YS202"));
+  if (!start_seen_ || homed_) return;
+  raise(context, {.rule = rule("YS202"),
+                  .arguments = {response.executing_block},
+                  .where = bytes_in_frame(message, 0, 2),
+                  .related = {block.frame}});
 }
 
 void Session::judge_reports(const Context& context, const Message& message, const Response& response) {
@@ -135,14 +155,16 @@ void Session::expire(const Context& context) {
   if (pending_block_fault_.active && elapsed_ns(pending_block_fault_.since_ns, now) >= kReportWaitNs) {
     issue_block_fault(context, kCodeNotRead);
   }
+  if (settle_pending_ && elapsed_ns(settle_ns_, now) >= kSettleNs) judge_pairs(context);
 }
 
 // The master's finding that a refusal answers: one that held when the drive was last seen to accept, or later.
 Cause Session::cause_of_refusal(const Context& context) const {
-  return cause_among(context,
-                     {rule("YS101"), rule("YS102"), rule("YS103"), rule("YS107"), rule("YS108"), rule("YS112"),
-                      rule("YS113"), rule("YS114"), rule("YS115"), rule("YS121"), rule("YS201"), rule("YS301")},
-                     refusable_since_);
+  return cause_among(
+      context,
+      {rule("YS101"), rule("YS102"), rule("YS103"), rule("YS107"), rule("YS108"), rule("YS112"), rule("YS113"),
+       rule("YS114"), rule("YS115"), rule("YS121"), rule("YS201"), rule("YS301"), rule("YS303"), rule("YS304")},
+      refusable_since_);
 }
 
 }  // namespace servotrace::ns310

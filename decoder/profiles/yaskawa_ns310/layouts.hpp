@@ -571,7 +571,7 @@ constexpr const Layout& response_data(std::int64_t code) {
   return kResponseData;
 }
 
-inline constexpr const Layout* kLayouts[] = {
+inline constexpr const Layout* kAssemblyLayouts[] = {
     &kCommand,         &kTargetPosition,  &kTargetSpeed,  &kAcceleration, &kDeceleration,
     &kContinuousSpeed, &kHoming,          &kAlarmClear,   &kCommandData,  &kResponse,
     &kCurrentPosition, &kCommandPosition, &kCurrentSpeed, &kAlarmCode,    &kResponseData,

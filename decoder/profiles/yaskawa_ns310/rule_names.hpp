@@ -38,4 +38,8 @@ inline constexpr ValueName kBlockFaultNames[] = {{kCodeNotRead, "its code was no
                                                  {2, "command time-out"},
                                                  {3, "execution fault"}};
 
+inline constexpr ValueName kEditStates[] = {{0, "while blocks are in execution"}, {1, "while an alarm is present"}};
+inline constexpr ValueName kChainFaults[] = {{0, "is empty or undefined"},
+                                             {1, "begins a loop that never ends and never waits"}};
+
 }  // namespace servotrace::ns310

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "decoder/profiles/yaskawa_ns310/session.hpp"
 
+#include <string>
+
 #include "decoder/profiles/yaskawa_ns310/profile.hpp"
 
 namespace servotrace::ns310 {
@@ -31,12 +33,11 @@ void Session::on_response(const Context& context, const Message& message) {
   add(context, message, response_data(response.code), kDataOffset, Direction::kResponse);
   track_operation(response);
   judge_echoes(context, message, response);
+  judge_home_travel(context, message, response);
   judge_reports(context, message, response);
   response_ = response;
   expire(context);
 }
-
-void Session::on_explicit(const Context& context, const ExplicitExchange&) { expire(context); }
 
 void Session::on_time(const Context& context) { expire(context); }
 
@@ -45,6 +46,9 @@ void Session::on_start(const Context&) {
   reported_.known = false;
   start_seen_ = true;
   homed_ = false;
+  needs_reset_.active = false;
+  if (written_direction_.basis.kind == BasisKind::kCapture) reference_direction_ = written_direction_;
+  blocks_.forget();
 }
 
 void Session::on_gap() {
@@ -60,6 +64,7 @@ void Session::on_gap() {
   operation_ = Operation::kUnknown;
   candidate_ = Operation::kUnknown;
   position_.reset();
+  start_seen_ = false;  // a homing may have been lost
 }
 
 void Session::on_finish(const Context& context) {
@@ -67,7 +72,27 @@ void Session::on_finish(const Context& context) {
   if (pending_block_fault_.active) issue_block_fault(context, kCodeNotRead);
 }
 
-void Session::summarise(NodeSummary&, std::vector<Statistic>& statistics) const {
+void Session::summarise(NodeSummary& summary, std::vector<Statistic>& statistics) const {
+  const auto fact = [&summary](std::string_view key, const Setting& setting) {
+    if (setting.basis.kind != BasisKind::kCapture) return;
+    summary.facts.push_back({std::string(key), std::to_string(setting.value), setting.basis});
+  };
+  fact("25h/24 Reference Direction", reference_direction_);
+  fact("64h/30 Electronic Gear (Numerator)", gear_numerator_);
+  fact("64h/31 Electronic Gear (Denominator)", gear_denominator_);
+  fact("64h/56 Accel/Decel Type for Positioning", acceleration_);
+  fact("64h/58 Filter Selection", filter_);
+  fact("64h/65 Profile Type For JOG", jog_acceleration_);
+  for (unsigned number = 1; number < 256; ++number) {
+    const Block& block = blocks_.at(static_cast<std::uint8_t>(number));
+    if (!block.command_known) continue;
+    BlockText text;
+    append_block(text, static_cast<std::uint8_t>(number), block);
+    const std::string_view all = text.view();
+    const std::size_t colon = all.find(": ");
+    summary.facts.push_back(
+        {std::string(all.substr(0, colon)), std::string(all.substr(colon + 2)), {BasisKind::kCapture, block.frame}});
+  }
   append_statistic(statistics, "valid data echo", node(), valid_echo_);
   append_statistic(statistics, "start echo", node(), start_echo_);
 }

@@ -7,14 +7,17 @@
 
 #include "decoder/core/durations.hpp"
 #include "decoder/profiles/drive_base.hpp"
+#include "decoder/profiles/hourly.hpp"
 #include "decoder/profiles/yaskawa_ns310/assemblies.hpp"
+#include "decoder/profiles/yaskawa_ns310/blocks.hpp"
 #include "decoder/profiles/yaskawa_ns310/rule_names.hpp"
 
 namespace servotrace::ns310 {
 
 class Session final : public DriveBase {
  public:
-  using DriveBase::DriveBase;
+  Session(const Settings& settings, const NodeRef& node, OwnerId owner, bool decode_only)
+      : DriveBase(settings, node, owner, decode_only), flash_starts_(settings.limits.flash_writes_per_hour) {}
 
   void on_command(const Context& context, const Message& message) override;
   void on_response(const Context& context, const Message& message) override;
@@ -80,10 +83,20 @@ class Session final : public DriveBase {
            elapsed_ns(wait.since_ns, context.frame.time_ns) >= milliseconds(limits().handshake_ms);
   }
 
+  // judge_explicit.cpp
+  void learn_parameter(const Context& context, const ExplicitExchange& exchange, std::int64_t value, bool written);
+  void judge_pairs(const Context& context);
+  void judge_parameters_at_start(const Context& context, ByteRange where);
+  void judge_block_request(const Context& context, const ExplicitExchange& exchange);
+  void learn_block(const Context& context, const ExplicitExchange& exchange);
+  void show_block(const Context& context, const Message& message, const Block& block, Direction direction) const;
+  void judge_chain(const Context& context, const Message& message, const Command& command);
+
   // judge_response.cpp
   void judge_echoes(const Context& context, const Message& message, const Response& response);
   void judge_reports(const Context& context, const Message& message, const Response& response);
   void track_operation(const Response& response);
+  void judge_home_travel(const Context& context, const Message& message, const Response& response);
   void issue_alarm(const Context& context, std::int64_t code, ByteRange where);
   void issue_block_fault(const Context& context, std::int64_t code);
   void expire(const Context& context);
@@ -109,9 +122,31 @@ class Session final : public DriveBase {
   Operation operation_ = Operation::kUnknown;
   Operation candidate_ = Operation::kUnknown;  // what the last accepted start sets in motion
   std::optional<std::int32_t> position_;       // steps; while the axis stands still
+  Setting written_direction_;                  // 25h/24 as written: in force after a reset
   Setting reference_direction_;                // 25h/24; 0: clockwise is positive
   bool start_seen_ = false;                    // the capture shows the node's start
   bool homed_ = false;                         // a homing was started since
+
+  // A parameter was set that acts after a reset only (YS403).
+  struct NeedsReset {
+    bool active = false;
+    std::uint16_t class_id = 0;
+    std::int32_t attribute = 0;
+    std::uint64_t frame = 0;
+  };
+  NeedsReset needs_reset_;
+  Setting gear_numerator_;    // 64h/30
+  Setting gear_denominator_;  // 64h/31
+  Setting acceleration_;      // 64h/56
+  Setting filter_;            // 64h/58
+  Setting jog_acceleration_;  // 64h/65
+  bool settle_pending_ = false;
+  TimeNs settle_ns_ = 0;      // the last Set of one of these
+  bool flash_dirty_ = false;  // a parameter was set since the last start
+  Hourly flash_starts_;
+  Blocks blocks_;
+  std::uint8_t homing_block_ = 0;  // the block 10h that was judged (YS202)
+  BlockText text_;                 // of the derived fields; valid as long as the dissection
 
   Durations valid_echo_;
   Durations start_echo_;
