@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// [[can]]: a DeviceNet bus of a scenario. The words of its steps are listed in captures/README.md.
+// [[can]]: a DeviceNet bus of a scenario. captures/scenarios/devicenet-steps.md lists the words of its steps.
 #include "captures/simulator/bus.hpp"
 #include "captures/simulator/can_esb.hpp"
 #include "captures/simulator/can_generic.hpp"

@@ -164,6 +164,7 @@ void Esb::take_command(Bytes bytes) {
   if (last_.run && !before.run && !ignore_run) {
     if (waits_for_run_) {
       waits_for_run_ = false;
+      go_to(running_channel_ + 1);
     } else {
       start_program(last_.channel);
     }
@@ -221,11 +222,9 @@ bool Esb::position(std::int16_t number, std::int32_t data, std::int32_t velocity
         break;
     }
   }
-  const std::int64_t speed = scaled_speed(velocity);
-  if (speed == 0) return true;  // OV = 0: the motor does not turn
   at_home_ = false;
   axis_.acceleration = axis_.deceleration = std::int64_t{acceleration} * 8192;
-  axis_.move_to(now + distance, speed);
+  axis_.move_to(now + distance, scaled_speed(velocity));  // at OV = 0 the motor does not turn
   return true;
 }
 
@@ -236,53 +235,53 @@ bool Esb::start_home() {
   const std::int64_t distance = parameter(142) == 0 ? kPulsesPerTurn - rest : rest == 0 ? -kPulsesPerTurn : -rest;
   axis_.acceleration = axis_.deceleration = std::int64_t{parameter(125)} * 8192;
   at_home_ = false;
-  const std::int64_t speed = scaled_speed(parameter(124));
-  if (speed != 0) axis_.move_to(axis_.position() + distance, speed);
+  axis_.move_to(axis_.position() + distance, scaled_speed(parameter(124)));
   return true;
 }
 
 bool Esb::start_program(std::uint8_t channel) {
-  if (!can_start() || axis_.moving() || work_ != Work::kNone || channel >= programs_.size()) return false;
-  if (programs_[channel].empty()) {
-    alarm_ = find_esb_alarm("F5");
-    return false;
-  }
-  running_channel_ = channel;
+  if (!can_start() || axis_.moving() || work_ != Work::kNone) return false;
   work_ = Work::kProgram;
-  line_ = 0;
-  line_started_ = false;
   waits_for_run_ = false;
-  return true;
+  return go_to(channel);
 }
 
-void Esb::run_line() {
-  const Line& line = programs_[running_channel_][line_];
+// An empty channel is a program error (F5).
+bool Esb::go_to(std::int64_t channel) {
+  command_started_ = false;
+  if (channel < static_cast<std::int64_t>(programs_.size()) &&
+      programs_[static_cast<std::size_t>(channel)].number != 0) {
+    running_channel_ = static_cast<std::uint8_t>(channel);
+    return true;
+  }
+  alarm_ = find_esb_alarm("F5");
+  work_ = Work::kNone;
+  return false;
+}
+
+void Esb::run_command() {
+  const Program& program = programs_[running_channel_];
   const auto option = [&](std::int16_t number, std::int32_t otherwise) {
-    const auto found = line.options.find(number);
-    return found == line.options.end() ? otherwise : found->second;
+    const auto found = program.options.find(number);
+    return found == program.options.end() ? otherwise : found->second;
   };
-  line_started_ = true;
+  command_started_ = true;
   timer_ms_ = 0;
-  if (line.number == kTimer) {
-    timer_ms_ = std::int64_t{line.data} * 10;  // one decimal place of 100 ms
-  } else if (line.number == 620) {
+  if (program.number == kTimer) {
+    timer_ms_ = std::int64_t{program.data} * 10;  // one decimal place of 100 ms
+  } else if (program.number == 620) {
     const std::int64_t rest = within_turn(axis_.position());
     axis_.acceleration = axis_.deceleration = std::int64_t{parameter(125)} * 8192;
     axis_.move_to(axis_.position() - rest, scaled_speed(parameter(124)));
-  } else if (line.number != kJump) {
-    position(line.number, line.data, option(662, parameter(120)), option(663, parameter(121)));
+  } else if (program.number != kJump) {
+    position(program.number, program.data, option(662, parameter(120)), option(663, parameter(121)));
   }
 }
 
 void Esb::tick_program() {
-  const std::vector<Line>& program = programs_[running_channel_];
   if (waits_for_run_) return;
-  if (!line_started_) {
-    if (line_ >= program.size()) {
-      work_ = Work::kNone;
-      return;
-    }
-    run_line();
+  if (!command_started_) {
+    run_command();
     return;
   }
   if (timer_ms_ > 0) {
@@ -290,29 +289,24 @@ void Esb::tick_program() {
     return;
   }
   if (axis_.moving()) return;
-  const Line& line = program[line_];
-  line_started_ = false;
-  if (line.number == kJump) {
-    running_channel_ = static_cast<std::uint8_t>(line.data);
-    line_ = 0;
-    if (programs_[running_channel_].empty()) {
-      alarm_ = find_esb_alarm("F5");
-      work_ = Work::kNone;
-    }
+  const Program& program = programs_[running_channel_];
+  if (program.number == kJump) {
+    go_to(program.data);
     return;
   }
-  if (line.number == 620) {
+  if (program.number == 620) {
     homed_ = true;
     at_home_ = true;
   }
-  const auto found = line.options.find(661);
-  const std::int32_t sequence = found == line.options.end() ? 0 : found->second;
-  if (line.number != kTimer && sequence != kExecuteNext && sequence != kWaitForRun) {
+  const auto found = program.options.find(661);
+  const std::int32_t sequence = found == program.options.end() ? 0 : found->second;
+  if (program.number == kTimer || sequence == kExecuteNext) {
+    go_to(running_channel_ + 1);
+  } else if (sequence == kWaitForRun) {
+    waits_for_run_ = true;  // the channel shown is still this one (4.4.9)
+  } else {
     work_ = Work::kNone;
-    return;
   }
-  ++line_;
-  waits_for_run_ = sequence == kWaitForRun;
 }
 
 void Esb::catch_up() {

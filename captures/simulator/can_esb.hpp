@@ -63,8 +63,10 @@ class Esb : public Slave {
     std::int16_t number = 0;
     std::int32_t data = 0;
   };
-  struct Line {
-    std::int16_t number = 0;
+  // The program of a channel: one command and its optional codes. Sequence code * goes on with the next channel, &
+  // does so at the next RUN.
+  struct Program {
+    std::int16_t number = 0;  // 0: empty
     std::int32_t data = 0;
     std::map<std::int16_t, std::int32_t> options;
   };
@@ -87,7 +89,8 @@ class Esb : public Slave {
   bool position(std::int16_t number, std::int32_t data, std::int32_t velocity, std::int32_t acceleration);
   bool start_home();
   bool start_program(std::uint8_t channel);
-  void run_line();
+  void run_command();
+  bool go_to(std::int64_t channel);
 
   void begin_transaction();
   void finish_transaction();
@@ -109,11 +112,10 @@ class Esb : public Slave {
   bool at_home_ = false;
   Work work_ = Work::kNone;
   std::uint8_t running_channel_ = 0;
-  std::size_t line_ = 0;
-  bool line_started_ = false;
+  bool command_started_ = false;
   bool waits_for_run_ = false;
   std::int64_t timer_ms_ = 0;
-  std::array<std::vector<Line>, 64> programs_;
+  std::array<Program, 64> programs_;
   Session session_ = Session::kNone;
   std::uint8_t session_channel_ = 0;
   std::vector<Result> listing_;  // what 820 has still to return

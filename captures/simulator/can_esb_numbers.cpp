@@ -218,7 +218,7 @@ Esb::Result Esb::process(const Input& input) {
 Esb::Result Esb::process_program(const Input& input) {
   const Result failed{false, input.number, input.data};
   if (!input.write) return failed;
-  std::vector<Line>& program = programs_[session_channel_];
+  Program& program = programs_[session_channel_];
   if (input.number == 502) {
     session_ = Session::kNone;
   } else if (is_program_command(input.number)) {
@@ -227,15 +227,13 @@ Esb::Result Esb::process_program(const Input& input) {
                       : input.number == 641 ? input.data >= 3 && input.data <= 1000
                                             : target_in_range(input.number, input.data);
     if (!fits) return failed;
-    program.push_back({input.number, input.data, {}});
+    program = {input.number, input.data, {}};
   } else if (input.number >= 660 && input.number <= 663) {
-    if (program.empty() || !option_allowed(program.back().number, input.number) ||
-        !option_in_range(input.number, input.data))
-      return failed;
+    if (!option_allowed(program.number, input.number) || !option_in_range(input.number, input.data)) return failed;
     if (input.data == 0) {
-      program.back().options.erase(input.number);
+      program.options.erase(input.number);
     } else {
-      program.back().options[input.number] = input.data;
+      program.options[input.number] = input.data;
     }
   } else {
     return failed;
@@ -285,20 +283,19 @@ Esb::Result Esb::write_number(std::int16_t number, std::int32_t data) {
     case 500:
       session_ = Session::kEdit;
       session_channel_ = static_cast<std::uint8_t>(data);
-      programs_[session_channel_].clear();
       return done;
     case 501:
       session_ = Session::kRead;
       listing_.clear();
-      for (const Line& line : programs_[static_cast<std::size_t>(data)]) {
-        listing_.push_back({true, line.number, line.data});
-        for (const auto& [option, value] : line.options) listing_.push_back({true, option, value});
+      if (const Program& program = programs_[static_cast<std::size_t>(data)]; program.number != 0) {
+        listing_.push_back({true, program.number, program.data});
+        for (const auto& [option, value] : program.options) listing_.push_back({true, option, value});
       }
       return done;
     case 502:
       return done;
     case 503:
-      programs_[static_cast<std::size_t>(data)].clear();
+      programs_[static_cast<std::size_t>(data)] = {};
       return done;
     default:
       return failed;

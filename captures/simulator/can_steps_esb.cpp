@@ -130,13 +130,14 @@ void read_number(CanWorld& world, TableReader& step) {
   master.transact(false, step.integer("number", INT16_MIN, INT16_MAX), 0);
 }
 
-// 500, the lines with their optional codes, 502 (5.3.1).
+// 500, a program command with its optional codes, 502 (5.3.1): each line for a channel of its own, from `channel` on.
 void edit_program(CanWorld& world, TableReader& step) {
   Image master = image(world, step);
-  const std::int64_t channel = step.integer("channel", 0, 63);
+  std::int64_t channel = step.integer("channel", 0, 63);
   const bool close = step.boolean("close", true);
-  master.transact(true, 500, channel);
-  for (const toml::table* table : step.tables("lines")) {
+  const std::vector<const toml::table*> lines = step.tables("lines");
+  for (const toml::table* table : lines) {
+    master.transact(true, 500, channel++);
     TableReader line(*table, world.job.problems);
     const std::int64_t command = line.integer("command", INT16_MIN, INT16_MAX);
     master.transact(true, command, line.integer("data", 0, INT32_MIN, INT32_MAX));
@@ -149,8 +150,8 @@ void edit_program(CanWorld& world, TableReader& step) {
         master.transact(true, option.number, *value);
     }
     line.done();
+    if (close || table != lines.back()) master.transact(true, 502, 0);
   }
-  if (close) master.transact(true, 502, 0);
 }
 
 // 501, 820 until it returns -1, 502 (5.3.2).

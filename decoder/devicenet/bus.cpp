@@ -99,6 +99,7 @@ void Bus::gap() {
     if (!entry) continue;
     Node& node = *entry;
     node.start = kStartMachine.next(node.start, StartEvent::kGap).to;
+    node.start_untold = false;
     forget(node.channel);
     node.exchanged = false;
     node.late_allowance = 0;
@@ -113,8 +114,8 @@ void Bus::gap() {
     poll.watched = false;
     poll.guess_commands = 0;
     poll.guess_responses = 0;
-    // What was lost may have been an allocation.
-    if (poll.state != PollState::kEstablished) poll.state = PollState::kUnknown;
+    // What was lost may have been an allocation or a release: the next poll response says.
+    poll.state = PollState::kUnknown;
     if (node.session) node.session->on_gap();
   }
   for (DynamicConnection& connection : dynamic_) forget(connection.channel);
@@ -139,6 +140,7 @@ void Bus::push(const Context& context, const can::Frame& frame) {
       evidence_frame_ = context.frame.number;
     }
   }
+  if (starts_untold_) tell_starts(context);
   if (now >= next_deadline_ns_) check_deadlines(context);
   if (frame.error) {
     push_error(context, frame);

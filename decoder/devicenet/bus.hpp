@@ -89,6 +89,7 @@ class Bus {
   void push_mac_check(const Arrival& arrival);
   void transmitted(const Arrival& arrival, Node& node);
   void started(const Arrival& arrival, Node& node, bool certain);
+  void tell_starts(const Context& context);
 
   // poll.cpp
   struct Size {
@@ -180,6 +181,7 @@ class Bus {
 
   std::array<std::unique_ptr<Node>, kMacIds> nodes_;
   std::vector<Node*> sessions_;     // nodes with a drive session
+  bool starts_untold_ = false;      // of any node
   DriveSession* served_ = nullptr;  // the session this frame was handed to
   std::vector<DynamicConnection> dynamic_;
   std::array<PendingOpen, 16> opens_ = {};

@@ -100,6 +100,7 @@ struct Node {
   StartState start = StartState::kUnknown;
   TimeNs check_time_ns = 0;  // of its first Duplicate MAC ID request
   std::uint64_t check_frame = 0;
+  bool start_untold = false;  // its drive session has not heard of its start yet
   bool has_pair = false;
   bool pair_certain = false;  // not where the node was on line and its own pair never seen
   std::uint16_t vendor_id = 0;

@@ -112,9 +112,20 @@ void Bus::started(const Arrival& arrival, Node& node, bool certain) {
   if (node.start != StartState::kFirstCheck) return;
   node.check_time_ns = arrival.now_ns();
   node.check_frame = arrival.number();
-  if (node.session && devicenet_) {
-    node.session->on_start(arrival.context);
-    served_ = node.session.get();
+  node.start_untold = true;
+  starts_untold_ = true;
+  tell_starts(arrival.context);
+}
+
+// A start may be seen before the bus is known to be DeviceNet, or the node to be a drive: its session hears of it as
+// soon as there is one.
+void Bus::tell_starts(const Context& context) {
+  if (!devicenet_) return;
+  for (Node* node : sessions_) {
+    if (!node->start_untold) continue;
+    node->start_untold = false;
+    node->session->on_start(context);
+    if (node->check_frame == context.frame.number) served_ = node->session.get();
   }
 }
 
