@@ -9,9 +9,6 @@ namespace {
 ByteRange signals(const Message& message) { return bytes_in_frame(message, 0, 3); }
 std::int64_t number_of(StartKind kind) { return static_cast<std::int64_t>(kind); }
 
-constexpr std::int16_t kSequenceOption = 661;
-constexpr std::int32_t kWaitForRun = 2;
-
 }  // namespace
 
 void Session::judge_motion(const Context& context, const Message& message, const Input& input) {
@@ -67,8 +64,7 @@ void Session::judge_start(const Context& context, const Message& message, const 
   } else if (kind != StartKind::kJog && output_ && output_->busy) {
     const Channel& running = programs_.channel(output_->ack_prg);
     const bool program_runs = runs_ != Runs::kOther;
-    const Step* sequence = running.find(kSequenceOption);
-    const bool waits = program_runs && sequence != nullptr && sequence->data == kWaitForRun;
+    const bool waits = program_runs && running.waits_for_run();
     if (!waits) {
       clean = false;
       raise(context, {.rule = rule("NK302"),

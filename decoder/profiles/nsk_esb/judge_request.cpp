@@ -239,6 +239,7 @@ void Session::learn_program(const Context& context, const Output& output) {
       session_channel_ = static_cast<std::uint8_t>(transaction_.data & 0x3F);
       session_frame_ = transaction_.frame;
       session_command_ = 0;
+      edit_begins_ = number == kEditChannel;
       if (number == kTellChannel) programs_.channel(session_channel_) = {};
       return;
     case kEndSession:
@@ -265,8 +266,14 @@ void Session::learn_program(const Context& context, const Output& output) {
     default:
       if (is_program_command(number) || is_optional_code(number)) {
         if (program_session_ != ProgramSession::kEdit) return;
-        if (is_program_command(number)) channel.known = true;
+        // The first command of an edit begins the program anew; more of them add lines.
+        if (is_program_command(number) && edit_begins_) {
+          edit_begins_ = false;
+          channel.steps.clear();
+          channel.known = true;
+        }
         Programs::write(channel, {transaction_.number, transaction_.data});
+        if (channel.steps.dropped() != 0) channel.known = false;
         channel.frame = context.frame.number;
         show_listing(context, session_channel_);
         return;

@@ -11,23 +11,25 @@ constexpr std::int16_t kJump = 640;
 
 }  // namespace
 
+bool Channel::waits_for_run() const {
+  for (const Step& step : steps) {
+    if (step.number == kSequence && step.data == 2) return true;
+  }
+  return false;
+}
+
 void Programs::write(Channel& channel, Step step) {
   if (is_program_command(step.number)) {
-    channel.steps.clear();
     channel.steps.push_back(step);
     return;
   }
-  SmallVector<Step, 8> kept;
-  bool replaced = false;
-  for (const Step& old : channel.steps) {
-    if (old.number != step.number) {
-      kept.push_back(old);
-    } else if (step.data != 0) {
-      kept.push_back(step);
-      replaced = true;
-    }
+  std::size_t line = channel.steps.size();  // the last line begins here
+  while (line > 0 && !is_program_command(channel.steps[line - 1].number)) --line;
+  SmallVector<Step, kMaxSteps> kept;
+  for (std::size_t i = 0; i < channel.steps.size(); ++i) {
+    if (i < line || channel.steps[i].number != step.number) kept.push_back(channel.steps[i]);
   }
-  if (!replaced && step.data != 0) kept.push_back(step);
+  if (step.data != 0) kept.push_back(step);
   channel.steps = kept;
 }
 
@@ -35,17 +37,22 @@ Programs::Start Programs::start_of(std::uint8_t number) const {
   for (std::size_t hops = 0; hops < kChannels; ++hops) {
     const Channel& at = channel(number);
     if (!at.known) return Start::kUnknown;
-    if (at.steps.empty()) return Start::kOther;
-    const Step& command = at.steps[0];
-    if (command.number == kHomeReturn) return Start::kHomesFirst;
-    if (command.number >= 600 && command.number <= 607) return Start::kAbsolute;
-    if (command.number == kJump) {
-      number = static_cast<std::uint8_t>(command.data & 0x3F);
-      continue;
+    std::int32_t sequence = 0;
+    bool jumps = false;
+    for (const Step& step : at.steps) {
+      if (step.number == kHomeReturn) return Start::kHomesFirst;
+      if (step.number >= 600 && step.number <= 607) return Start::kAbsolute;
+      if (is_program_command(step.number)) sequence = 0;
+      if (step.number == kSequence) sequence = step.data;
+      if (step.number == kJump) {
+        number = static_cast<std::uint8_t>(step.data & 0x3F);
+        jumps = true;
+        break;
+      }
     }
-    // An incremental move or a timer: what follows in sequence counts too.
-    const Step* sequence = at.find(kSequence);
-    if (sequence == nullptr || sequence->data != 1 || number + 1U >= kChannels) return Start::kOther;
+    if (jumps) continue;
+    // Incremental moves and timers alone: the next channel counts where the last line goes on to it.
+    if (sequence != 1 || number + 1U >= kChannels) return Start::kOther;
     ++number;
   }
   return Start::kOther;
@@ -72,16 +79,21 @@ void append_listing(Listing& text, std::uint8_t number, const Channel& channel) 
     text << "(empty)";
     return;
   }
-  bool first = true;
-  for (const Step& step : channel.steps) {
-    if (step.number == kDivision || step.number == kSequence) continue;  // they stand behind the command
-    if (!first) text << ", ";
+  for (std::size_t i = 0; i < channel.steps.size(); ++i) {
+    const Step& step = channel.steps[i];
+    if (step.number == kDivision || step.number == kSequence) continue;  // they stand behind their command
+    const bool command = is_program_command(step.number);
+    if (i > 0) text << (command ? "; " : ", ");
     append_step(text, step.number, step.data);
-    if (first) {
-      if (const Step* division = channel.find(kDivision)) text << "/" << std::int64_t{division->data};
-      if (const Step* sequence = channel.find(kSequence)) text << (sequence->data == 1 ? "*" : "&");
+    if (!command) continue;
+    std::int32_t division = 0;
+    std::int32_t sequence = 0;
+    for (std::size_t j = i + 1; j < channel.steps.size() && !is_program_command(channel.steps[j].number); ++j) {
+      if (channel.steps[j].number == kDivision) division = channel.steps[j].data;
+      if (channel.steps[j].number == kSequence) sequence = channel.steps[j].data;
     }
-    first = false;
+    if (division != 0) text << "/" << std::int64_t{division};
+    if (sequence != 0) text << (sequence == 1 ? "*" : "&");
   }
 }
 

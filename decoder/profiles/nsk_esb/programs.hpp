@@ -13,6 +13,8 @@
 namespace servotrace::esb {
 
 inline constexpr std::size_t kChannels = 64;
+// Steps kept of a channel. The manual gives no number; a longer program is not known as a whole.
+inline constexpr std::size_t kMaxSteps = 48;
 
 // A program command with its data, or an optional code of it.
 struct Step {
@@ -23,14 +25,10 @@ struct Step {
 struct Channel {
   bool known = false;       // all of it is in `steps` (an empty channel has none)
   std::uint64_t frame = 0;  // that showed it
-  SmallVector<Step, 8> steps;
+  SmallVector<Step, kMaxSteps> steps;
 
-  const Step* find(std::int16_t number) const {
-    for (const Step& step : steps) {
-      if (step.number == number) return &step;
-    }
-    return nullptr;
-  }
+  // True where a line of it waits for RUN (661 = 2).
+  bool waits_for_run() const;
 };
 
 inline constexpr bool is_program_command(std::int64_t number) {
@@ -54,7 +52,7 @@ class Programs {
   const Channel& channel(std::uint8_t number) const { return channels_[number % kChannels]; }
   void forget() { channels_ = {}; }
 
-  // A program command starts the channel's program anew; an optional code replaces its like, or deletes it with 0.
+  // A program command begins a line; an optional code replaces its like in the last line, or deletes it with 0.
   static void write(Channel& channel, Step step);
 
   // What a start of `number` does, as far as the capture shows it. kUnknown where a channel on the way is not known.
@@ -66,7 +64,7 @@ class Programs {
 };
 
 using Listing = Text<512>;
-// "CH5: AD/PL9000&, CV1.5000, CA10.00"; "CH5: (empty)".
+// "CH5: AD/PL9000&, CV1.5000, CA10.00"; lines are parted by "; "; "CH5: (empty)".
 void append_listing(Listing& text, std::uint8_t number, const Channel& channel);
 // One number with its data, "VG45.0"; a number without a mnemonic by its name.
 void append_step(Listing& text, std::int64_t number, std::int64_t data);

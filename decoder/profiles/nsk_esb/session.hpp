@@ -150,6 +150,7 @@ class Session final : public DriveBase {
   ProgramSession program_session_ = ProgramSession::kUnknown;
   std::uint8_t session_channel_ = 0;
   std::uint64_t session_frame_ = 0;
+  bool edit_begins_ = false;          // no program command was taken in this edit yet
   std::int16_t session_command_ = 0;  // the last program command asked for in this edit; 0: none
 
   Runs runs_ = Runs::kUnknown;

@@ -371,6 +371,11 @@ TEST_F(EsbHandshake, TransactionsAndListingsAreShown) {
   poll({.request = true, .write = true, .number = 661, .data = 2},
        {.ack = true, .sts = true, .number = 661, .data = 2});
   EXPECT_EQ(shown("listing"), "CH5: ID/EX-3000/12&, CV1.5000, CA10.00");
+  poll({}, {.ack = true});
+  poll({});
+  poll({.request = true, .write = true, .number = 600, .data = 9000},
+       {.ack = true, .sts = true, .number = 600, .data = 9000});
+  EXPECT_EQ(shown("listing"), "CH5: ID/EX-3000/12&, CV1.5000, CA10.00; AD9000");
 }
 
 TEST_F(EsbHandshake, AGuessedDriveIsDecodedAndNotJudged) {

@@ -72,6 +72,22 @@ TEST_F(EsbMotion, NK302NotWhereTheChannelWaitsForRun) {
   run(5, {.byte0 = kReady | kBusy, .ack_prg = 5});
   EXPECT_EQ(bench_.rules(), "");
 }
+TEST_F(EsbMotion, NK302NotWhereALineOfTheChannelWaitsForRun) {
+  ready();
+  program(5, {{610, 40000}, {661, 2}, {610, 40000}});
+  run(5, {.byte0 = kReady | kBusy, .ack_prg = 5});
+  poll({.prg = 5}, {.byte0 = kReady | kBusy, .ack_prg = 5});
+  run(5, {.byte0 = kReady | kBusy, .ack_prg = 5});
+  EXPECT_EQ(bench_.rules(), "");
+}
+TEST_F(EsbMotion, NK309NotWhereTheFirstLineHomes) {
+  const Out no_home{.byte0 = kDrdy | kBrk};
+  ready();
+  program(0, {{620, 0}, {661, 1}, {600, 9000}, {663, 1000}});
+  poll({}, no_home, 2);
+  poll({.byte0 = kSvon | kRun}, no_home);
+  EXPECT_EQ(bench_.count("NK309"), 0);
+}
 TEST_F(EsbMotion, NK302UnknownProgramIsANoteForRunOnly) {
   ready();
   run(5, {.byte0 = kReady | kBusy, .ack_prg = 5});
