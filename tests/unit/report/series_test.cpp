@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// Downsampling keeps every spike; the SVG writer keeps markup whole; the symptom table names rules that exist.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "decoder/findings/catalogue.hpp"
+#include "replay/report/series.hpp"
+#include "replay/report/svg.hpp"
+#include "replay/report/symptoms.hpp"
+
+namespace servotrace::report {
+namespace {
+
+TEST(Series, KeepsEverySampleWhereThereIsRoom) {
+  Series series(8);
+  for (int i = 0; i < 8; ++i) series.add(i * 100, i);
+  ASSERT_EQ(series.bins().size(), 8U);
+  EXPECT_EQ(series.bins()[7].last, 7);
+  EXPECT_EQ(series.samples(), 8U);
+}
+
+TEST(Series, ASpikeNeverDisappears) {
+  for (const int spike_at : {0, 1, 499, 777, 9999}) {
+    Series series(64);
+    for (int i = 0; i < 10'000; ++i) series.add(i * 1'000, i == spike_at ? -5000 : 10);
+    EXPECT_LE(series.bins().size(), 64U);
+    EXPECT_EQ(series.samples(), 10'000U);
+    const auto lowest = std::min_element(series.bins().begin(), series.bins().end(),
+                                         [](const auto& left, const auto& right) { return left.minimum < right.minimum; });
+    EXPECT_EQ(lowest->minimum, -5000) << spike_at;
+    EXPECT_LE(lowest->time_ns, spike_at * 1'000) << spike_at;
+    EXPECT_FALSE(series.is_constant());
+  }
+}
+
+TEST(Series, TimesThatGoBackwardsOrStandStillStayBounded) {
+  Series series(4);
+  for (int i = 0; i < 1000; ++i) series.add(i % 3, i);
+  EXPECT_LE(series.bins().size(), 4U);
+  EXPECT_EQ(series.samples(), 1000U);
+}
+
+TEST(Svg, TextCannotBecomeMarkup) {
+  EXPECT_EQ(escape_html("<b>\"a\" & 'c'</b>"), "&lt;b&gt;&quot;a&quot; &amp; &#39;c&#39;&lt;/b&gt;");
+  EXPECT_EQ(escape_html("\x01\xFFok\xC3\xA4"), "?ok\xC3\xA4");
+  Svg svg(10, 10, "a<b");
+  svg.text(1, 1, "<script>", "x");
+  EXPECT_EQ(svg.str().find("<script>"), std::string::npos);
+}
+
+TEST(Svg, TicksAreRoundAndFew) {
+  EXPECT_EQ(ticks(0, 1, 5), (std::vector<double>{0, 0.2, 0.4, 0.6000000000000001, 0.8, 1}));
+  EXPECT_TRUE(ticks(1, 1, 5).empty());
+  EXPECT_LE(ticks(-3e9, 7e9, 9).size(), 11U);
+}
+
+TEST(Symptoms, NameRulesThatExist) {
+  for (const Symptom& symptom : kSymptoms) {
+    EXPECT_NE(find_rule(symptom.rule), kRuleCount) << symptom.rule;
+    if (!symptom.cause.empty()) EXPECT_NE(find_rule(symptom.cause), kRuleCount) << symptom.cause;
+    EXPECT_FALSE(symptom.text.empty());
+    EXPECT_FALSE(symptom.section.empty());
+  }
+  for (const FaultRule& row : kFaultRules) EXPECT_NE(find_rule(row.rule), kRuleCount) << row.rule;
+}
+
+}  // namespace
+}  // namespace servotrace::report
