@@ -58,7 +58,9 @@ TEST(Svg, TicksAreRoundAndFew) {
 TEST(Symptoms, NameRulesThatExist) {
   for (const Symptom& symptom : kSymptoms) {
     EXPECT_NE(find_rule(symptom.rule), kRuleCount) << symptom.rule;
-    if (!symptom.cause.empty()) EXPECT_NE(find_rule(symptom.cause), kRuleCount) << symptom.cause;
+    if (!symptom.cause.empty()) {
+      EXPECT_NE(find_rule(symptom.cause), kRuleCount) << symptom.cause;
+    }
     EXPECT_FALSE(symptom.text.empty());
     EXPECT_FALSE(symptom.section.empty());
   }
