@@ -53,6 +53,8 @@ std::vector<std::size_t> preceding(const Model& model, std::size_t fault) {
 
 void rank_causes(Model& model, Fault& fault) {
   const Finding& reported = model.findings[fault.finding];
+  fault.causes.clear();
+  const std::int64_t argument = fault.code_frame != 0 ? fault.code : reported.arguments[0];
   const std::string_view id = rule_row(reported.rule).id;
   std::set<std::size_t> used;
   const auto add = [&](Candidate candidate) {
@@ -74,7 +76,7 @@ void rank_causes(Model& model, Fault& fault) {
   }
   for (const Symptom& symptom : kSymptoms) {
     if (symptom.rule != id || symptom.cause.empty()) continue;
-    if (symptom.argument != kAny && symptom.argument != reported.arguments[0]) continue;
+    if (symptom.argument != kAny && symptom.argument != argument) continue;
     for (auto index = fault.preceding.rbegin(); index != fault.preceding.rend(); ++index) {
       if (rule_row(model.findings[*index].rule).id != symptom.cause) continue;
       add({.text = std::string(symptom.text),
@@ -97,7 +99,7 @@ void rank_causes(Model& model, Fault& fault) {
   }
   for (const Symptom& symptom : kSymptoms) {
     if (symptom.rule != id || !symptom.cause.empty()) continue;
-    if (symptom.argument != kAny && symptom.argument != reported.arguments[0]) continue;
+    if (symptom.argument != kAny && symptom.argument != argument) continue;
     add({.text = std::string(symptom.text),
          .section = std::string(symptom.section),
          .supported = false,
@@ -176,6 +178,15 @@ std::string at_time(const Model& model, TimeNs time_ns) {
   return fmt::format("{:.6f} s", static_cast<double>(elapsed_ns(model.capture.first_ns, time_ns)) / 1e9);
 }
 
+bool is_alarm_without_code(const Finding& finding) {
+  const std::string_view id = rule_row(finding.rule).id;
+  return (id == "RX902" || id == "YS901") && finding.arguments[0] <= 0;
+}
+
+void rank_all_causes(Model& model) {
+  for (Fault& fault : model.faults) rank_causes(model, fault);
+}
+
 void find_faults(Model& model, const Settings&, const replay::BusNames&) {
   std::vector<std::size_t> found;
   for (std::size_t i = 0; i < model.findings.size(); ++i) {
@@ -232,6 +243,10 @@ void judge(Model& model, const Settings& settings, const replay::BusNames& buses
     const std::string name = who(finding, settings, buses);
     verdict.headline = fmt::format("{} failed first, {} after the start (frame {}): {}.", capitalised(name),
                                    at_time(model, finding.time_ns), finding.frame, message(finding));
+    if (first.code_frame != 0) {
+      verdict.sentences.push_back(fmt::format("The drive was asked afterwards and answered alarm {} (frame {}).",
+                                              first.code_text, first.code_frame));
+    }
     const auto supported =
         std::find_if(first.causes.begin(), first.causes.end(), [](const Candidate& cause) { return cause.supported; });
     if (supported != first.causes.end() && supported->finding) {

@@ -16,6 +16,10 @@ inline constexpr DurationNs kCauseWindowNs = 30 * kSecondNs;
 // "axis 3 (X) on ring0", "ring0", "the capture".
 std::string who(const Finding& finding, const Settings& settings, const replay::BusNames& buses);
 
+// True where a drive's alarm was found whose code nobody had read yet.
+bool is_alarm_without_code(const Finding& finding);
+// Ranks the causes of every fault anew, with the codes read after it.
+void rank_all_causes(Model& model);
 // Fills faults (with windows and causes) from the findings; model.findings must be sorted by frame.
 void find_faults(Model& model, const Settings& settings, const replay::BusNames& buses);
 // Fills the verdict and what the capture cannot show; faults must be found.

@@ -52,7 +52,8 @@ Result<Built> build_model(const replay::CaptureInput& input, const Settings& set
   std::vector<Watch> watches;
   for (const Fault& fault : model.faults) {
     const Finding& finding = model.findings[fault.finding];
-    watches.push_back({finding.frame, finding.time_ns, finding.node, fault.window_begin_ns, fault.window_end_ns});
+    watches.push_back({finding.frame, finding.time_ns, finding.node, fault.window_begin_ns, fault.window_end_ns,
+                       is_alarm_without_code(finding)});
   }
   std::set<std::uint64_t> evidence;
   for (const Finding& finding : model.findings) {
@@ -66,6 +67,7 @@ Result<Built> build_model(const replay::CaptureInput& input, const Settings& set
   Gather gather(collector);
   static_cast<void>(replay::run_input(input, settings, {.visitor = &gather}));
   collector.finish(model);
+  rank_all_causes(model);
   judge(model, settings, built.buses);
   return built;
 }

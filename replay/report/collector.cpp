@@ -173,6 +173,24 @@ void Collector::take_messages(CloseUp& close_up) {
   }
 }
 
+// The alarm an asked drive answers with: the main number of RTEX (SX-DSV02203 6-6-2), the code of an NS310 (SIE-C718-7
+// 5.3.4).
+void Collector::look_for_code(CloseUp& close_up, const RawFrame& frame, const Dissection& dissection) {
+  for (const Segment& segment : dissection.segments) {
+    if (segment.direction != Direction::kResponse || key_of(segment.node) != key_of(close_up.watch.node)) continue;
+    for (const std::string_view key : {"alarm_main", "alarm_code"}) {
+      const Field* field = segment.layout->find(key);
+      if (field == nullptr || !is_series(*field)) continue;
+      const std::int64_t value = read(slot_of(*field), dissection.bytes(segment));
+      if (value == 0) continue;
+      close_up.code = value;
+      close_up.code_frame = frame.number;
+      close_up.code_text = value_text(*field, value);
+      return;
+    }
+  }
+}
+
 void Collector::scale(Cycle& cycle) {
   // The middle of the picture is the median, its width a fifth of it each way: jitter is what is looked for.
   std::vector<DurationNs> sorted = cycle.first;
@@ -235,6 +253,10 @@ void Collector::add(const RawFrame& frame, const Dissection& dissection) {
   add_snapshots(frame, dissection);
   for (CloseUp& close_up : close_ups_) {
     if (!close_up.taken && frame.number >= close_up.watch.frame) take_messages(close_up);
+    if (close_up.watch.wants_code && close_up.code_frame == 0 && frame.number > close_up.watch.frame &&
+        dissection.direction == Direction::kResponse) {
+      look_for_code(close_up, frame, dissection);
+    }
   }
   add_cycle(frame, dissection);
 }
@@ -246,6 +268,9 @@ void Collector::finish(Model& model) {
   for (std::size_t i = 0; i < close_ups_.size() && i < model.faults.size(); ++i) {
     model.faults[i].signals = std::move(close_ups_[i].signals);
     model.faults[i].messages = std::move(close_ups_[i].messages);
+    model.faults[i].code = close_ups_[i].code;
+    model.faults[i].code_frame = close_ups_[i].code_frame;
+    model.faults[i].code_text = std::move(close_ups_[i].code_text);
   }
   for (Cycle& cycle : cycles_) {
     if (cycle.histogram.counts.empty()) {

@@ -24,6 +24,7 @@ struct Watch {
   NodeRef node;
   TimeNs begin_ns = 0;  // window of the close-up
   TimeNs end_ns = 0;
+  bool wants_code = false;  // an alarm whose code was not known when it rose
 };
 
 class Collector {
@@ -55,6 +56,9 @@ class Collector {
     std::vector<Signal> signals;
     std::vector<MessagePair> messages;
     bool taken = false;
+    std::int64_t code = 0;  // read out of the drive after the fault
+    std::uint64_t code_frame = 0;
+    std::string code_text;
   };
   struct Cycle {
     BusRef bus;
@@ -70,6 +74,7 @@ class Collector {
   void add_snapshots(const RawFrame& frame, const Dissection& dissection);
   void add_cycle(const RawFrame& frame, const Dissection& dissection);
   void take_messages(CloseUp& close_up);
+  static void look_for_code(CloseUp& close_up, const RawFrame& frame, const Dissection& dissection);
   static void scale(Cycle& cycle);
 
   const Settings& settings_;

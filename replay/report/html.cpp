@@ -150,6 +150,7 @@ class Page {
       add("<p>{} {} at {}, frame {}: {}.</p><p>{}</p><p>What to do: {}</p>\n", severity(finding.severity),
           rule_link(finding.rule), at_time(model_, finding.time_ns), finding.frame, e(message(finding)), e(row.why),
           e(row.fix));
+      if (fault.code_frame != 0) add("<p>Alarm code read in frame {}: {}.</p>\n", fault.code_frame, e(fault.code_text));
       evidence(finding.frame);
       if (!fault.causes.empty()) {
         add("<h4>Causes, the likeliest first</h4>\n<ol>\n");

@@ -72,6 +72,10 @@ struct Fault {
   std::vector<Candidate> causes;       // ranked, the likeliest first
   std::vector<MessagePair> messages;
   std::vector<Signal> signals;  // around it, at full resolution
+  // The alarm's code, where the finding did not know it and the drive was asked for it afterwards; frame 0: it was not.
+  std::int64_t code = 0;
+  std::uint64_t code_frame = 0;
+  std::string code_text;
   TimeNs window_begin_ns = 0;
   TimeNs window_end_ns = 0;
 };

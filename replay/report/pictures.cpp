@@ -118,6 +118,8 @@ std::vector<Lane> make_lanes(const Model& model, const Settings& settings, const
     Lane* lane = lane_of(finding.node);
     if (lane != nullptr) lane->findings.push_back(&finding);
   }
+  // A node known by name only (its place before its address was seen) has nothing to show.
+  std::erase_if(lanes, [](const Lane& lane) { return lane.tracks.empty() && lane.findings.empty(); });
   for (Lane& lane : lanes) {
     std::stable_sort(lane.tracks.begin(), lane.tracks.end(), [](const StateTrack* left, const StateTrack* right) {
       return importance(*left->field) < importance(*right->field);

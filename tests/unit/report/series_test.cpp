@@ -26,8 +26,9 @@ TEST(Series, ASpikeNeverDisappears) {
     for (int i = 0; i < 10'000; ++i) series.add(i * 1'000, i == spike_at ? -5000 : 10);
     EXPECT_LE(series.bins().size(), 64U);
     EXPECT_EQ(series.samples(), 10'000U);
-    const auto lowest = std::min_element(series.bins().begin(), series.bins().end(),
-                                         [](const auto& left, const auto& right) { return left.minimum < right.minimum; });
+    const auto lowest =
+        std::min_element(series.bins().begin(), series.bins().end(),
+                         [](const auto& left, const auto& right) { return left.minimum < right.minimum; });
     EXPECT_EQ(lowest->minimum, -5000) << spike_at;
     EXPECT_LE(lowest->time_ns, spike_at * 1'000) << spike_at;
     EXPECT_FALSE(series.is_constant());
