@@ -73,6 +73,7 @@ Fault read_fault(const toml::table& table, Problems& problems, std::int64_t cycl
                                          {"hold_echo", FaultKind::kHoldEcho},
                                          {"late", FaultKind::kLate},
                                          {"stall", FaultKind::kStall},
+                                         {"initialise", FaultKind::kInitialise},
                                          {"drop", FaultKind::kDrop},
                                          {"cut", FaultKind::kCut},
                                          {"repeat", FaultKind::kRepeat},

@@ -20,17 +20,18 @@ enum class FaultKind : std::uint8_t {
   kResponseField,  // a field of the response block is `value`
   kCommandByte,    // byte `byte` of the command block is `value`
   kResponseByte,
-  kCrcError,   // the drive does not understand the command (6-11)
-  kSilent,     // the response block stays zero
-  kFrozen,     // the response block stays what it was, but the counter moves on in the command
-  kHoldEcho,   // the drive does not take commands
-  kLate,       // the command record comes `value` microseconds late
-  kStall,      // the master sends nothing for the cycles
-  kDrop,       // the recorder loses the record
-  kCut,        // the recorder keeps `value` bytes of the record only
-  kRepeat,     // the recorder writes the record twice
-  kStamp,      // the recorder stamps the record `value` microseconds early
-  kHeaderByte  // byte `byte` of the record header is `value`
+  kCrcError,    // the drive does not understand the command (6-11)
+  kSilent,      // the response block stays zero
+  kFrozen,      // the response block stays what it was, but the counter moves on in the command
+  kHoldEcho,    // the drive does not take commands
+  kLate,        // the command record comes `value` microseconds late
+  kStall,       // the master sends nothing for the cycles
+  kInitialise,  // the master initialises the ring again, from NOP on
+  kDrop,        // the recorder loses the record
+  kCut,         // the recorder keeps `value` bytes of the record only
+  kRepeat,      // the recorder writes the record twice
+  kStamp,       // the recorder stamps the record `value` microseconds early
+  kHeaderByte   // byte `byte` of the record header is `value`
 };
 
 enum class Records : std::uint8_t { kCommand, kResponse, kBoth };

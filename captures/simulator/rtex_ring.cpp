@@ -372,6 +372,10 @@ void RingSimulation::simulate() {
       ++wall_cycle;
       continue;
     }
+    if (any(FaultKind::kInitialise)) {
+      nop_from_ = wall_cycle;
+      for (Axis& axis : axes_) axis.master->start_again();
+    }
     make_commands();
     for (const Axis& axis : axes_) {
       if (const Step* step = axis.master->overdue(ring_.now_ns)) {
