@@ -323,7 +323,7 @@ TimeNs RingSimulation::time_of(std::int64_t cycle, bool response) {
   noise_ = noise_ * 1'664'525U + 1'013'904'223U;
   const std::int64_t jitter = config_.jitter_ns == 0 ? 0 : static_cast<std::int64_t>(noise_ >> 8U) % config_.jitter_ns;
   TimeNs time_ns = job_.start_ns + config_.start_ns + config_.timing.start_of(cycle) + jitter;
-  if (const Fault* late = find_record(FaultKind::kLate, response)) time_ns += late->value * kMicrosecondNs;
+  if (const Fault* late = find(FaultKind::kLate, -1)) time_ns += late->value * kMicrosecondNs;
   return response ? time_ns + config_.timing.cycle_ns / 8 : time_ns;
 }
 

@@ -70,7 +70,8 @@ Outcome left_while_busy(Scene& scene) {
   if (left_to_mode(scene)) return Outcome::kSilent;
   if (channel.step == HandshakeStep::kLeft) return Outcome::kPassed;
   if (channel.step != HandshakeStep::kLeftBusy) return Outcome::kSilent;
-  const bool homing = !scene.is_sub() && is(part, NonCyclic::kHoming);                                    // RX503
+  if (!scene.node->response_chain) return Outcome::kSilent;             // the response that showed Busy = 0 may be lost
+  const bool homing = !scene.is_sub() && is(part, NonCyclic::kHoming);  // RX503
   const bool reset = !scene.is_sub() && is(part, NonCyclic::kReset) && part.type_code == kSoftwareReset;  // by design
   if (homing || reset || channel.hold.refused) return Outcome::kPassed;
   return scene.raise({.arguments = {part.code}, .where = scene.code(), .related = {channel.process.since.frame, 0}});

@@ -67,7 +67,7 @@ void Engine::step_command(Scene& scene, ChannelState& channel) {
       if (is_homing_search(channel.hold.part)) channel.process.busy = false;
       const Hold& hold = channel.hold;
       if (leaves && hold.part.code == static_cast<std::uint8_t>(NonCyclic::kReset) &&
-          hold.part.type_code == kSoftwareReset && hold.echoed && !hold.refused) {
+          hold.part.type_code == kSoftwareReset && (hold.echoed || !hold.every_response) && !hold.refused) {
         node.known.on_reset();
         node.format = node.known.format();
         node.ignore_stale = true;

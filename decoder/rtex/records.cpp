@@ -176,6 +176,12 @@ void Engine::restart_comparisons() {
     node->counter.still = 0;
     node->latch.shown = false;
     for (ChannelState& channel : node->channels) {
+      // A reset may have been let go in the gap: the drives restart.
+      if (channel.id == Channel::kMain && channel.hold.part.code == static_cast<std::uint8_t>(NonCyclic::kReset) &&
+          channel.hold.part.type_code == kSoftwareReset && !channel.hold.refused) {
+        ring_.running = false;
+        ring_.awaiting_start = true;
+      }
       const auto& row = kHandshake.next(channel.state, HandshakeEvent::kLost);
       channel.state = row.to;
       channel.hold = {};
@@ -188,8 +194,16 @@ void Engine::restart_comparisons() {
 // --- time -----------------------------------------------------------------------------------------------------------
 
 void Engine::take_command_record(const Context& context, const RecordHeader& header, bool all_nop) {
-  if (all_nop) ring_.awaiting_start = false;
   const bool timed = context.frame.has_time && header.sequence_valid && !ring_.sampled;
+  if (all_nop && !ring_.last_all_nop) {
+    // The ring begins again: after a reset, or after a pause that lost records hide.
+    const bool paused = !(timed && ring_.last_command_follows) && ring_.cycle_ns && ring_.last_command.frame != 0 &&
+                        elapsed_ns(ring_.last_command.time_ns, context.frame.time_ns) >
+                            ring_.settings.limits.timeout_cycles * ring_.cycle_ns.value;
+    if (!ring_.running || paused) stop_ring();
+    ring_.awaiting_start = false;
+  }
+  ring_.last_all_nop = all_nop;
   if (timed && ring_.last_command_follows) {
     const DurationNs interval = elapsed_ns(ring_.last_command.time_ns, context.frame.time_ns);
     ring_.cycle_times.add(interval);

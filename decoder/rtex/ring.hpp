@@ -286,6 +286,7 @@ struct Ring {
   // Software reset (6-3-1)
   bool reset_sent = false;      // in this record a node went back from an echoed reset command
   bool reset_reported = false;  // RX601, once a reset
+  bool last_all_nop = false;    // the command record before was NOP for every node
   bool awaiting_start = false;  // after a reset: what the memories hold is old until the ring starts again
 
   Node& node(unsigned place);

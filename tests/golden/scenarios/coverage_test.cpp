@@ -12,7 +12,8 @@ namespace servotrace::test {
 namespace {
 
 // Blocks of the catalogue whose rules all have both.
-const std::vector<std::string_view> kComplete = {};
+const std::vector<std::string_view> kComplete = {"CP",    "RX1",   "RX2",   "RX3",   "RX401",
+                                                 "RX402", "RX403", "RX410", "RX901", "RX902"};
 
 TEST(ScenarioCoverage, EveryRuleIsRaisedAndKeptSilent) {
   std::set<std::string, std::less<>> raised;
