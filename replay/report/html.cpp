@@ -104,9 +104,13 @@ class Page {
     add(timeline(model_, settings_, buses_, model_.capture.first_ns, model_.capture.last_ns));
     if (!model_.faults.empty()) {
       const Fault& first = model_.faults.front();
-      add("<h3>Before the first fault</h3>\n");
-      add(timeline(model_, settings_, buses_, std::max(first.window_begin_ns, model_.capture.first_ns),
-                   std::min(first.window_end_ns, model_.capture.last_ns)));
+      const TimeNs begin = std::max(first.window_begin_ns, model_.capture.first_ns);
+      const TimeNs end = std::min(first.window_end_ns, model_.capture.last_ns);
+      // A close-up of nearly everything would show the same picture again.
+      if (elapsed_ns(begin, end) < elapsed_ns(model_.capture.first_ns, model_.capture.last_ns) / 2) {
+        add("<h3>Before the first fault</h3>\n");
+        add(timeline(model_, settings_, buses_, begin, end));
+      }
     }
     add("<details><summary>Every change of state</summary><div "
         "class=\"wide\"><table><tr><th>time</th><th>frame</th><th>who</th><th>state</th><th>from</th><th>to</th></"
