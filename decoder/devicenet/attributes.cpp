@@ -33,8 +33,12 @@ Row find_row(const Node& node, const Request& request) {
 
 const Layout* Bus::value_layout(const Node& node, const Request& request) const {
   if (request.instance == 0) return nullptr;  // class attributes are others
-  const Row row = find_row(node, request);
-  return row.attribute == nullptr ? nullptr : row.object->layout_of(*row.attribute);
+  const auto layout_in = [&](std::span<const ObjectClass> classes) -> const Layout* {
+    const Row row = find_row(classes, request);
+    return row.attribute == nullptr ? nullptr : row.object->layout_of(*row.attribute);
+  };
+  const Layout* const own = node.profile == nullptr ? nullptr : layout_in(node.profile->objects);
+  return own != nullptr ? own : layout_in(standard_objects());
 }
 
 // A drive's session shows the values of attributes its profile lists without layouts.

@@ -91,6 +91,7 @@ void Bus::gap() {
   evidence_.gap();
   next_deadline_ns_ = INT64_MAX;
   const auto forget = [](ExplicitChannel& channel) {
+    channel.used = false;
     channel.request.forget();
     channel.response.forget();
     for (PendingRequest& pending : channel.pending) pending.state = PendingRequest::State::kFree;
@@ -103,6 +104,7 @@ void Bus::gap() {
     forget(node.channel);
     node.exchanged = false;
     node.late_allowance = 0;
+    node.responded = false;
     node.explicit_connection = Known::kUnknown;
     node.master = kNoMacId;
     PollConnection& poll = node.poll;
@@ -163,7 +165,8 @@ void Bus::push(const Context& context, const can::Frame& frame) {
 }
 
 void Bus::invalid(const Context& context, const can::Frame& frame, std::int64_t kind) {
-  derive(context.dissection, kIdentifierField, frame.identifier, NodeRef{.bus = ref_});
+  derive(context.dissection, kIdentifierField, frame.identifier,
+         NodeRef{.bus = ref_, .protocol = Protocol::kDevicenet});
   raise(context, {.rule = rule("DN101"),
                   .owner = owner_,
                   .arguments = {kind, frame.identifier},
@@ -173,7 +176,7 @@ void Bus::invalid(const Context& context, const can::Frame& frame, std::int64_t 
 void Bus::push_error(const Context& context, const can::Frame& frame) {
   if (context.dissection != nullptr) {
     Dissection& dissection = *context.dissection;
-    derive(&dissection, kErrorClassField, frame.identifier, NodeRef{.bus = ref_});
+    derive(&dissection, kErrorClassField, frame.identifier, NodeRef{.bus = ref_, .protocol = Protocol::kDevicenet});
     if (fits(kErrorFrame, frame.data)) {
       dissection.add({.layout = &kErrorFrame,
                       .offset = frame.data_offset,
@@ -199,7 +202,8 @@ void Bus::push_error(const Context& context, const can::Frame& frame) {
   error_ns_ = context.frame.time_ns;
   const bool bus_off = (classes & kClassBusOff) != 0;
   const std::int64_t code = bus_off ? 91 : (classes & kClassNoAck) != 0 ? 79 : 0;
-  if (code != 0) derive(context.dissection, kScannerCodeField, code, NodeRef{.bus = ref_});
+  if (code != 0)
+    derive(context.dissection, kScannerCodeField, code, NodeRef{.bus = ref_, .protocol = Protocol::kDevicenet});
   raise(context, {.rule = rule("DN104"),
                   .owner = owner_,
                   .arguments = {classes, code},

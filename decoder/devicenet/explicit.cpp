@@ -11,6 +11,7 @@ namespace {
 constexpr std::int64_t kRequestTransfer = 2;  // argument 0 of DN301-DN303
 constexpr std::int64_t kResponseTransfer = 3;
 constexpr std::uint8_t kMacMask = 0x3F;
+constexpr std::int64_t kDefaultExplicitRateMs = 2500;
 
 std::int16_t mac_of(std::uint8_t header) { return static_cast<std::int16_t>(header & kMacMask); }
 unsigned xid_of(std::uint8_t header) { return header >> 6U & 1U; }
@@ -205,6 +206,13 @@ void Bus::check_connection(const Arrival& arrival, Node& node, const Request& re
   const bool none = node.explicit_connection == Known::kNo;
   if (!other_master && !none) {
     findings_.calm(node.explicit_owner, rule("DN211"));
+    // Unused for four times its rate, and no I/O connection keeps it: the node may have dropped it.
+    const std::int64_t rate_ms = node.explicit_rate_ms ? node.explicit_rate_ms->value : kDefaultExplicitRateMs;
+    const DurationNs limit = milliseconds(rate_ms * settings_.limits.epr_factor);
+    if (limit != 0 && node.channel.used && node.poll.state != PollState::kEstablished &&
+        elapsed_ns(node.channel.used_time_ns, arrival.now_ns()) > limit) {
+      pending.silent = true;
+    }
     return;
   }
   pending.silent = true;
@@ -345,6 +353,8 @@ void Bus::handle_response(const Arrival& arrival, Node& node, ExplicitChannel& c
     findings_.calm(owner, rule("DN401"));
   }
   if (pending == nullptr) return;
+  channel.used = true;
+  channel.used_time_ns = arrival.now_ns();
   const PendingRequest answered_request = *pending;
   pending->state = PendingRequest::State::kFree;
   if (!response.is_error) succeeded(arrival, node, channel, answered_request, response, whole.bytes);

@@ -45,6 +45,8 @@ struct ExplicitChannel {
   Transfer request{true};
   Transfer response{true};
   std::array<PendingRequest, 4> pending = {};
+  bool used = false;  // a request was answered, at used_time_ns for the last time
+  TimeNs used_time_ns = 0;
 };
 
 enum class Known : std::uint8_t { kUnknown, kNo, kYes };

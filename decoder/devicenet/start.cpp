@@ -93,6 +93,7 @@ void Bus::started(const Arrival& arrival, Node& node, bool certain) {
   node.poll.has_command = false;
   node.explicit_rate_ms.reset();
   node.channel.body_format = 0;
+  node.channel.used = false;
   if (!certain) {
     node.poll.state = PollState::kUnknown;
     node.explicit_connection = Known::kUnknown;

@@ -59,7 +59,7 @@ std::vector<std::string> words(std::span<const Finding> findings) {
   std::vector<std::string> list;
   for (const Finding& finding : findings) {
     const Rule& row = rule_row(finding.rule);
-    if (row.id.substr(0, 2) == "CP") continue;
+    if (row.id.substr(0, 2) != "DN") continue;
     std::string text = fmt::format("{}@{}", row.id, finding.frame);
     if (finding.severity != row.severity) text += fmt::format(" {}", name_of(finding.severity));
     list.push_back(std::move(text));

@@ -42,7 +42,7 @@ class Bench {
   Bench& finish();
 
   // "DN205@7" of each finding so far, in their order; severity other than the rule's own behind it: "DN207@3 note".
-  // Findings of the capture (CP) are left out.
+  // Those of the capture and of drive profiles are left out.
   std::vector<std::string> findings() const;
   const Finding& last() const { return pipeline_.findings().all().back(); }
   std::span<const Finding> all() const { return pipeline_.findings().all(); }
