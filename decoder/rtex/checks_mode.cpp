@@ -19,6 +19,16 @@ bool in_special_profile(const Scene& scene) {
   return special && in_progress(node).yes;
 }
 
+// Whether the axis moves under the mode it had until now.
+Answer moved(const Scene& scene) {
+  const Node& node = *scene.node;
+  if (node.mode_before == static_cast<std::uint8_t>(Cyclic::kPp)) {
+    const Answer progress = in_progress(node);
+    if (progress.yes && node.response.servo_active) return progress;
+  }
+  return speed_moves(scene.ring, node);
+}
+
 }  // namespace
 
 Outcome mode_change_not_normal(Scene& scene) {
@@ -51,6 +61,71 @@ Outcome mode_change_too_soon(Scene& scene) {
                       .where = scene.bytes(1, 1),
                       .related = {node.mode_change_frame, 0},
                       .basis = scene.ring.cycle_ns.basis});
+}
+
+Outcome mode_change_in_profile(Scene& scene) {
+  const Node& node = *scene.node;
+  if (in_homing(scene)) return Outcome::kSilent;
+  if (!in_special_profile(scene)) return Outcome::kPassed;
+  return scene.raise({.arguments = {node.mode_before, node.command.cyclic, node.profile.type_code},
+                      .where = scene.bytes(1, 1),
+                      .related = {node.response_frame, 0},
+                      .basis = in_progress(node).basis});
+}
+
+Outcome mode_change_to_cp_moving(Scene& scene) {
+  const Node& node = *scene.node;
+  if (!node.command.is(Cyclic::kCp)) return Outcome::kSilent;
+  const Answer moving = moved(scene);
+  if (!moving.yes) return Outcome::kPassed;
+  return scene.raise({.arguments = {node.mode_before},
+                      .where = scene.bytes(1, 1),
+                      .related = {node.response_frame, 0},
+                      .basis = moving.basis});
+}
+
+Outcome mode_change_to_pp_normal(Scene& scene) {
+  const Node& node = *scene.node;
+  if (!node.command.is(Cyclic::kPp)) return Outcome::kSilent;
+  const Answer moving = moved(scene);
+  if (node.command.main.code != 0 || !moving.yes) return Outcome::kPassed;
+  return scene.raise({.arguments = {node.mode_before},
+                      .where = scene.bytes(1, 1),
+                      .related = {node.response_frame, 0},
+                      .basis = moving.basis});
+}
+
+Outcome mode_full_closed(Scene& scene) {
+  const Node& node = *scene.node;
+  const Known& loop = node.known[Fact::kFullClosed];
+  if (!node.command.is_mode() || !loop.certain()) return Outcome::kSilent;
+  if (loop.value != 6 || node.command.is(Cyclic::kPp) || node.command.is(Cyclic::kCp)) return Outcome::kPassed;
+  return scene.raise({.arguments = {node.command.cyclic}, .where = scene.bytes(1, 1), .basis = loop.basis});
+}
+
+Outcome mode_not_in_cycle(Scene& scene) {
+  const Node& node = *scene.node;
+  const Learnt& cycle = scene.ring.cycle_ns;
+  if (!node.command.is_mode() || !cycle) return Outcome::kSilent;
+  if (cycle.value >= 500'000) return Outcome::kPassed;
+  const Known& loop = node.known[Fact::kFullClosed];
+  const Known& scale = node.known[Fact::kScaleMonitor];
+  const bool position = node.command.is(Cyclic::kPp) || node.command.is(Cyclic::kCp);
+  const bool refused =
+      node.command.is(Cyclic::kPp) || node.command.wide || (loop.certainly(6) && position) || scale.certainly(1);
+  if (!refused) return Outcome::kPassed;
+  return scene.raise({.arguments = {node.command.cyclic, cycle.value, node.command.wide ? 32 : 16},
+                      .where = scene.bytes(1, 1),
+                      .basis = cycle.basis});
+}
+
+Outcome mode_change_in_homing(Scene& scene) {
+  const Node& node = *scene.node;
+  if (!node.comparable) return Outcome::kSilent;
+  if (!in_homing(scene)) return Outcome::kPassed;
+  return scene.raise({.arguments = {node.mode_before, node.command.cyclic, node.previous.main.type_code},
+                      .where = scene.bytes(1, 1),
+                      .related = {node.previous_frame, 0}});
 }
 
 Outcome nop_after_start(Scene& scene) {

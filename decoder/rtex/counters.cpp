@@ -163,10 +163,44 @@ void Engine::judge_start(Scene& scene) {
 }
 
 // RX206: the misses this capture shows against Pr7.38 and Pr7.28.
-void Engine::judge_misses(Scene&) {}
+void Engine::judge_misses(Scene& scene) {
+  Node& node = *scene.node;
+  CounterState& counter = node.counter;
+  const auto judge = [&](Fact fact, std::int64_t parameter, bool& warned) {
+    const Known& limit = node.known[fact];
+    if (!limit.certain() || limit.value <= 1) return;
+    ring_.findings.checked(rule("RX206"));
+    if (warned || counter.misses <= static_cast<std::uint32_t>(limit.value)) return;
+    warned = true;
+    report(scene, rule("RX206"), node.owner,
+           {.arguments = {counter.misses, parameter, limit.value},
+            .where = scene.bytes(kCounterByte.offset, kCounterByte.length),
+            .basis = limit.basis,
+            .variant = parameter});
+  };
+  judge(Fact::kCounterError, pr(7, 38), counter.warned_error);
+  const Known& mask = node.known[Fact::kWarningMask];
+  const bool masked = mask.certain() && (static_cast<std::uint32_t>(mask.value) >> 11U & 1U) == 0;
+  if (!masked) judge(Fact::kCounterWarning, pr(7, 28), counter.warned_warning);
+}
 
 // RX212: the position changes inside an updating cycle.
-void Engine::judge_between(Scene&) {}
+void Engine::judge_between(Scene& scene) {
+  Node& node = *scene.node;
+  const CommandView& command = node.command;
+  if (!command.is(Cyclic::kCp) || !node.previous.is(Cyclic::kCp) || is_homing(command.main)) return;
+  if (!node.have_response || node.status_undefined || !node.response.servo_active || !node.counter.phase_known) return;
+  ring_.findings.checked(rule("RX212"));
+  if (command.data1 == node.previous.data1) {
+    ring_.findings.calm(node.owner, rule("RX212"));
+    return;
+  }
+  report(scene, rule("RX212"), node.owner,
+         {.arguments = {node.previous.data1, command.data1},
+          .where = scene.bytes(kData1At, 4),
+          .related = {node.previous_frame, 0},
+          .basis = ring_.ratio.basis});
+}
 
 // --- learning -------------------------------------------------------------------------------------------------------
 

@@ -55,6 +55,8 @@ void Engine::run(Scene& scene, Events events) {
       if (rule.row.needs_every_cycle && ring_.sampled) continue;
       if (rule.scope == Scope::kChannel && scene.channel == nullptr) continue;
       if (rule.scope == Scope::kNode && scene.node == nullptr) continue;
+      // A node's rules see a command block once, not once a channel.
+      if (rule.scope == Scope::kNode && bit == kActiveCommand && scene.channel != nullptr) continue;
       scene.rule = id_of(place);
       scene.owner = rule.scope == Scope::kRing   ? ring_.owner
                     : rule.scope == Scope::kNode ? scene.node->owner

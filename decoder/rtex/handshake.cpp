@@ -17,6 +17,8 @@ HandshakeEvent event_of(const Node& node, const CommandPart& part, const Command
   return extend_mode(node) ? HandshakeEvent::kRestart : HandshakeEvent::kNewArguments;
 }
 
+}  // namespace
+
 DurationNs busy_limit_ns(const Process& process, const Limits& limits) {
   const auto code = static_cast<NonCyclic>(process.code);
   const bool long_one =
@@ -33,8 +35,6 @@ bool has_no_busy_limit(const Process& process) {
   return process.code == static_cast<std::uint8_t>(NonCyclic::kHoming) && process.type_code >= 0x11 &&
          process.type_code <= 0x1D;
 }
-
-}  // namespace
 
 void Engine::begin_hold(Scene& scene, ChannelState& channel) {
   channel.hold = {};

@@ -81,6 +81,11 @@ Answer moves(const Ring& ring, const Node& node) {
     const Answer progress = in_progress(node);
     if (progress.yes) return progress;
   }
+  return speed_moves(ring, node);
+}
+
+Answer speed_moves(const Ring& ring, const Node& node) {
+  if (!node.have_response || !node.response.servo_active || node.status_undefined) return {};
   const Speed speed = actual_speed(node);
   if (speed.known) {
     const auto& limit = ring.settings.limits.moving_speed;

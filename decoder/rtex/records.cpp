@@ -175,6 +175,7 @@ void Engine::restart_comparisons() {
     node->counter.nop_moved = false;
     node->counter.still = 0;
     node->latch.shown = false;
+    node->limited_since = {};
     for (ChannelState& channel : node->channels) {
       // A reset may have been let go in the gap: the drives restart.
       if (channel.id == Channel::kMain && channel.hold.part.code == static_cast<std::uint8_t>(NonCyclic::kReset) &&
@@ -312,6 +313,7 @@ void Engine::restart_ring(const Context& context) {
 void Engine::stop_ring() {
   restart_comparisons();
   ring_.running = false;
+  ring_.reset_reported = false;
   for (const auto& entry : ring_.nodes) {
     if (entry == nullptr) continue;
     Node& node = *entry;

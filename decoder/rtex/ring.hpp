@@ -198,6 +198,9 @@ struct Node {
   bool identical_response = false;  // the block is byte for byte the one of the cycle before
   bool zero_response = false;
 
+  Moment limited_since;  // Torque_Limited
+  Moment home_cleared;   // the last record of a command that clears Homing_Complete
+  std::int64_t servo_change_cycle = 0;
   CounterState counter;
   ProfileState profile;
   LatchState latch;

@@ -50,6 +50,7 @@ struct Answer {
 Answer in_progress(const Node& node);
 // The catalogue's "moves".
 Answer moves(const Ring& ring, const Node& node);
+Answer speed_moves(const Ring& ring, const Node& node);  // by speed or position alone
 // The actual speed of the last response, where it is shown and its unit is r/min or command units as Pr7.25 says.
 struct Speed {
   bool known = false;
@@ -71,6 +72,9 @@ Basis weaker(const Basis& left, const Basis& right);
 std::int64_t cycles_in(const Ring& ring, DurationNs duration_ns);
 bool is_homing(const CommandPart& part);         // 11h to 1Dh, 21h, 22h, 31h: a homing command other than latch
 bool is_homing_search(const CommandPart& part);  // 11h to 1Dh
+// RX312: how long a process may stay Busy.
+DurationNs busy_limit_ns(const Process& process, const Limits& limits);
+bool has_no_busy_limit(const Process& process);
 bool matches(const CommandPart& part, const ResponsePart& answer, bool sub);
 
 }  // namespace servotrace::rtex

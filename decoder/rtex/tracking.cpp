@@ -27,13 +27,25 @@ void track_parameter(Scene& scene, const CommandPart& part, const ResponsePart& 
 
 }  // namespace
 
-void track_command(Scene&) {}
+void track_command(Scene& scene) {
+  Node& node = *scene.node;
+  const CommandView& command = node.command;
+  if (command.is_nop()) return;
+  const CommandPart& part = command.main;
+  const bool profile_homing = command.is(NonCyclic::kProfile) && part.type_code >= 0x31 && part.type_code <= 0x33;
+  const bool homing = command.is(NonCyclic::kHoming) && part.type_code < 0x50;
+  if (homing || profile_homing || command.is(NonCyclic::kReset)) node.home_cleared = scene.now;
+  if (node.servo_on_known && node.servo_on_sent != command.servo_on) node.servo_change_cycle = scene.now.cycle;
+}
 
 void track_answer(Scene& scene, bool completed) {
   Node& node = *scene.node;
   if (scene.is_sub()) return;
   const CommandPart& part = scene.channel->hold.part;
   const ResponsePart& answer = scene.answer();
+  if (answer.is(NonCyclic::kProfile))
+    node.profile = {true, static_cast<std::uint8_t>(answer.type_code), static_cast<std::uint8_t>(answer.index & 0xFU),
+                    0};
   if (!completed) return;
   if (answer.is(NonCyclic::kParameter)) track_parameter(scene, part, answer);
   if (answer.is(NonCyclic::kReset) && part.type_code == kValidation && !answer.err) {
@@ -49,6 +61,11 @@ void track_status(Scene& scene) {
   if (node.response.alarm && !(state.known && state.alarm)) state.alarm_rise = scene.now;
   if (node.response.warning && !(state.known && state.warning)) state.warning_rise = scene.now;
   if (!node.response.alarm) state.main = state.sub = 0;
+  if (!node.response.torque_limited) {
+    node.limited_since = {};
+  } else if (node.limited_since.frame == 0) {
+    node.limited_since = scene.now;
+  }
   state.known = true;
   state.alarm = node.response.alarm;
   state.warning = node.response.warning;
