@@ -41,6 +41,8 @@ int run_info(const Arguments& arguments);
 int run_explain(const Arguments& arguments);
 int run_rules(const Arguments& arguments);
 int run_simulate(const Arguments& arguments);
+int run_merge(const Arguments& arguments);
+int run_annotate(const Arguments& arguments);
 
 // Parses into what `app` was set up with. A value: the exit status to return at once (help was shown, or the words are
 // wrong).

@@ -13,6 +13,8 @@ constexpr Command kCommands[] = {
     {"explain", "a rule's page: what, why, fix, manual section", &run_explain},
     {"rules", "the catalogue of rules", &run_rules},
     {"simulate", "makes a capture from a scenario", &run_simulate},
+    {"annotate", "the capture again with every finding as a packet comment", &run_annotate},
+    {"merge", "joins the results of many checks", &run_merge},
 };
 
 }  // namespace

@@ -146,16 +146,12 @@ int run_decode(const Arguments& arguments) {
     options.first = range->first;
     options.last = range->second;
   }
-  const Result<std::vector<CaptureInput>> inputs = expand_inputs({options.capture});
-  if (!inputs) {
-    complain(inputs.error());
+  const Result<CaptureInput> named = single_input(options.capture);
+  if (!named) {
+    complain(named.error());
     return kExitFailed;
   }
-  if (inputs->size() != 1) {
-    complain(Error{options.capture, "this folder holds several captures: name one of them"});
-    return kExitFailed;
-  }
-  const CaptureInput& input = inputs->front();
+  const CaptureInput& input = *named;
   const auto settings = capture_options.settings(input.path);
   if (!settings) {
     complain(settings.error());

@@ -74,6 +74,13 @@ Result<std::vector<CaptureInput>> expand_inputs(const std::vector<std::string>& 
   return inputs;
 }
 
+Result<CaptureInput> single_input(const std::string& argument) {
+  Result<std::vector<CaptureInput>> inputs = expand_inputs({argument});
+  if (!inputs) return inputs.error();
+  if (inputs->size() != 1) return Error{argument, "this folder holds several captures: name one of them"};
+  return inputs->front();
+}
+
 Result<std::unique_ptr<Source>> open_input(const CaptureInput& input) {
   return input.is_stream() ? open_stream(STDIN_FILENO, input.name) : open_capture(input.path);
 }

@@ -24,6 +24,9 @@ struct CaptureInput {
 // missing file, a folder without captures, or standard input named twice is an error.
 Result<std::vector<CaptureInput>> expand_inputs(const std::vector<std::string>& arguments);
 
+// The one capture an argument names; a folder of several is an error.
+Result<CaptureInput> single_input(const std::string& argument);
+
 Result<std::unique_ptr<Source>> open_input(const CaptureInput& input);
 
 // run() over an input; what cannot be opened is in the result's error.

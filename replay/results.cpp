@@ -24,6 +24,11 @@ void Counts::add(const Counts& other) {
   notes += other.notes;
 }
 
+void Counts::remove(Severity severity) {
+  std::uint64_t& number = severity == Severity::kError ? errors : severity == Severity::kWarning ? warnings : notes;
+  if (number != 0) --number;
+}
+
 std::uint64_t Counts::at_least(Severity severity) const {
   if (severity == Severity::kError) return errors;
   if (severity == Severity::kWarning) return errors + warnings;

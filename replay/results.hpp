@@ -22,6 +22,7 @@ struct Counts {
 
   void add(Severity severity, std::uint64_t number = 1);
   void add(const Counts& other);
+  void remove(Severity severity);
   std::uint64_t all() const { return errors + warnings + notes; }
   // Findings of this severity or worse.
   std::uint64_t at_least(Severity severity) const;

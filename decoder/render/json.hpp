@@ -10,6 +10,9 @@
 
 namespace servotrace {
 
+// `text` with U+FFFD for every byte that is no UTF-8.
+std::string valid_utf8(std::string_view text);
+
 // Appends `text` in quotes, escaped.
 void append_json_string(std::string& out, std::string_view text);
 

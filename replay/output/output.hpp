@@ -12,8 +12,8 @@
 namespace servotrace::replay {
 
 struct OutputOptions {
-  Style style;           // text only
-  bool details = false;  // text: rule statistics of clean captures, too
+  Style style;                                         // text only
+  std::optional<Severity> fail_on = Severity::kError;  // JUnit: from where on a finding is a failure; empty: never
 };
 
 class Output {
@@ -46,5 +46,11 @@ std::span<const OutputFormat> output_formats();
 
 std::unique_ptr<Output> make_text(Out& out, const OutputOptions& options);
 std::unique_ptr<Output> make_jsonl(Out& out, const OutputOptions& options);
+std::unique_ptr<Output> make_json(Out& out, const OutputOptions& options);
+std::unique_ptr<Output> make_sarif(Out& out, const OutputOptions& options);
+std::unique_ptr<Output> make_sarif_github(Out& out, const OutputOptions& options);
+std::unique_ptr<Output> make_junit(Out& out, const OutputOptions& options);
+std::unique_ptr<Output> make_github(Out& out, const OutputOptions& options);
+std::unique_ptr<Output> make_markdown(Out& out, const OutputOptions& options);
 
 }  // namespace servotrace::replay

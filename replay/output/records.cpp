@@ -65,6 +65,9 @@ void write_capture(JsonWriter& json, const CaptureRecord& capture) {
   if (!capture.error.empty()) json.member("error", capture.error);
   if (capture.suppressed != 0) json.member("suppressed", capture.suppressed);
   if (capture.baselined != 0) json.member("baselined", capture.baselined);
+  json.member("errors", capture.counts.errors);
+  json.member("warnings", capture.counts.warnings);
+  json.member("notes", capture.counts.notes);
   json.member("status", capture.status);
 }
 

@@ -24,6 +24,7 @@ class Selection {
 
   RuleFilter filter(const RuleSettings& settings) const;
   bool is_of_actor(Actor actor) const;
+  std::optional<Severity> fail_on() const { return fail_on_; }
   // Exit status of one capture.
   int status(const CaptureRecord& capture) const;
 
