@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "replay/capture/pcapng_writer.hpp"
-#include "replay/command_line.hpp"
+#include "replay/commands.hpp"
 #include "replay/console.hpp"
 #include "replay/exit_status.hpp"
 #include "replay/inputs.hpp"

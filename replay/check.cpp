@@ -10,7 +10,7 @@
 #include "decoder/render/value.hpp"
 #include "replay/baseline.hpp"
 #include "replay/capture/live.hpp"
-#include "replay/command_line.hpp"
+#include "replay/commands.hpp"
 #include "replay/evidence.hpp"
 #include "replay/exit_status.hpp"
 #include "replay/in_order.hpp"

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "replay/commands.hpp"
 #include "replay/console.hpp"
 #include "replay/exit_status.hpp"
 #include "replay/settings/suggest.hpp"

@@ -25,31 +25,9 @@ namespace servotrace::replay {
 // The words behind the subcommand's name.
 using Arguments = std::vector<std::string>;
 
-// One subcommand. `run` returns the exit status.
-struct Command {
-  std::string_view name;
-  std::string_view summary;  // a line, lower case, without a full stop
-  int (*run)(const Arguments& arguments) = nullptr;
-};
-// In the order of the help.
-std::span<const Command> commands();
-
-int run_check(const Arguments& arguments);
-int run_report(const Arguments& arguments);
-int run_decode(const Arguments& arguments);
-int run_info(const Arguments& arguments);
-int run_explain(const Arguments& arguments);
-int run_rules(const Arguments& arguments);
-int run_simulate(const Arguments& arguments);
-int run_merge(const Arguments& arguments);
-int run_annotate(const Arguments& arguments);
-
 // Parses into what `app` was set up with. A value: the exit status to return at once (help was shown, or the words are
 // wrong).
 std::optional<int> parse(CLI::App& app, const Arguments& arguments);
-
-// The whole program, without its name in front. Used by main() and the tests.
-int run_servotrace(const Arguments& arguments);
 
 // --config and --devicenet, and the settings that follow from them for each capture.
 class CaptureOptions {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The list of subcommands: a new one is one line.
-#include "replay/command_line.hpp"
+#include "replay/commands.hpp"
 
 namespace servotrace::replay {
 namespace {
@@ -14,6 +14,8 @@ constexpr Command kCommands[] = {
     {"rules", "the catalogue of rules", &run_rules},
     {"simulate", "makes a capture from a scenario", &run_simulate},
     {"annotate", "the capture again with every finding as a packet comment", &run_annotate},
+    {"export", "signals as CSV, states as a Perfetto trace", &run_export},
+    {"config", "writes a commented servotrace.toml from what a capture shows", &run_config},
     {"merge", "joins the results of many checks", &run_merge},
 };
 

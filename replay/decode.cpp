@@ -8,7 +8,7 @@
 #include "decoder/render/message.hpp"
 #include "decoder/render/sentence.hpp"
 #include "decoder/render/value.hpp"
-#include "replay/command_line.hpp"
+#include "replay/commands.hpp"
 #include "replay/console.hpp"
 #include "replay/exit_status.hpp"
 #include "replay/inputs.hpp"

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "decoder/findings/catalogue.hpp"
-#include "replay/command_line.hpp"
+#include "replay/commands.hpp"
 #include "replay/console.hpp"
 #include "replay/exit_status.hpp"
 #include "replay/rule_page.hpp"

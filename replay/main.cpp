@@ -2,7 +2,7 @@
 #include <csignal>
 #include <exception>
 
-#include "replay/command_line.hpp"
+#include "replay/commands.hpp"
 #include "replay/console.hpp"
 #include "replay/exit_status.hpp"
 

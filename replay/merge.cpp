@@ -7,7 +7,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "replay/command_line.hpp"
+#include "replay/commands.hpp"
 #include "replay/console.hpp"
 #include "replay/exit_status.hpp"
 #include "replay/output/records.hpp"

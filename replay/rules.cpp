@@ -7,7 +7,7 @@
 
 #include "decoder/findings/catalogue.hpp"
 #include "decoder/render/json.hpp"
-#include "replay/command_line.hpp"
+#include "replay/commands.hpp"
 #include "replay/console.hpp"
 #include "replay/exit_status.hpp"
 #include "replay/rule_page.hpp"

@@ -6,7 +6,7 @@
 
 #include "captures/simulator/scenario.hpp"
 #include "replay/capture/pcapng_writer.hpp"
-#include "replay/command_line.hpp"
+#include "replay/commands.hpp"
 #include "replay/console.hpp"
 #include "replay/exit_status.hpp"
 

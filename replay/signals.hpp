@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// The process values and states of a capture as series: one a bus, node and field. Visitors over the layouts: what a
+// field is good for stands in its row (Role).
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "replay/run.hpp"
+
+namespace servotrace::replay {
+
+struct Series {
+  std::string name;  // "ring0.axis3.command.command_position"
+  const Field* field = nullptr;
+  NodeRef node;
+};
+
+// Finds the series of a dissection; a series keeps its number through the capture.
+class SeriesList {
+ public:
+  // visit(series number, field, raw value) for every signal (and state, where `states`) of the frame.
+  template <class Visit>
+  void for_each(const Dissection& dissection, bool states, Visit visit) {
+    for (const Segment& segment : dissection.segments) {
+      if (segment.node.mac_id == kNoMacId) continue;
+      const Bytes bytes = dissection.bytes(segment);
+      for (const Field& field : segment.layout->fields) {
+        if (field.role == Role::kPlain || (field.role == Role::kState && !states)) continue;
+        const Slot place = slot_of(field);
+        if (place.width == 0) continue;
+        visit(number(segment, field), field, read(place, bytes));
+      }
+    }
+  }
+  // Names them; after the last frame.
+  std::vector<Series> named(const BusNames& buses) const;
+
+ private:
+  // Variants of a layout share their key: a series is its filter name, on one node.
+  using Key = std::tuple<std::uint32_t, std::uint8_t, std::uint8_t, std::int16_t, std::uint8_t, std::string_view,
+                         std::string_view, std::string_view>;
+  struct Entry {
+    NodeRef node;
+    const Layout* layout = nullptr;
+    const Field* field = nullptr;
+  };
+  std::size_t number(const Segment& segment, const Field& field);
+
+  std::map<Key, std::size_t> numbers_;
+  std::vector<Entry> entries_;
+};
+
+// What a state's value is called: its name, else the number.
+std::string state_text(const Field& field, std::int64_t raw);
+
+}  // namespace servotrace::replay
