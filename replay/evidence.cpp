@@ -1,12 +1,26 @@
 // SPDX-License-Identifier: MIT
 #include "replay/evidence.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "decoder/render/sentence.hpp"
 
 namespace servotrace::replay {
 namespace {
+
+// A frame nothing was recognised in (a malformed record) shows its first bytes.
+std::string words(const RawFrame& frame, const Dissection& dissection, const NodeRef& node, const Settings& settings) {
+  std::string text = sentence_of(dissection, node, &settings);
+  if (!text.empty()) return text;
+  constexpr std::size_t kMostBytes = 32;
+  text = fmt::format("{} bytes:", frame.bytes.size());
+  for (const std::uint8_t byte : frame.bytes.first(std::min(frame.bytes.size(), kMostBytes))) {
+    text += fmt::format(" {:02X}", byte);
+  }
+  return frame.bytes.size() > kMostBytes ? text + " ..." : text;
+}
 
 // One line wanted: `frame` as finding `finding` needs it.
 struct Wanted {
@@ -28,7 +42,7 @@ class SecondLook : public FrameVisitor {
     for (; dissection != nullptr && next_ < wanted_.size() && wanted_[next_].frame == frame.number; ++next_) {
       const std::size_t index = wanted_[next_].finding;
       capture_.findings[index].evidence.push_back(
-          {frame.number, frame.time_ns, sentence_of(*dissection, findings_[index].node, &settings_)});
+          {frame.number, frame.time_ns, words(frame, *dissection, findings_[index].node, settings_)});
     }
     return next_ < wanted_.size();
   }
@@ -67,7 +81,7 @@ bool StreamEvidence::on_frame(const RawFrame& frame, const Dissection* dissectio
   for (const Finding& finding : pipeline.fresh()) {
     if (lines_.size() >= kMostEvidence || dissection == nullptr) break;
     lines_.try_emplace(key(finding),
-                       EvidenceLine{frame.number, frame.time_ns, sentence_of(*dissection, finding.node, &settings_)});
+                       EvidenceLine{frame.number, frame.time_ns, words(frame, *dissection, finding.node, settings_)});
   }
   return true;
 }

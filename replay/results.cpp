@@ -66,6 +66,10 @@ std::string_view RunTotals::verdict() const {
   return status == kExitNothing || checked_frames == 0 ? "nothing-checked" : "clean";
 }
 
+std::string plural(std::uint64_t number, std::string_view word) {
+  return fmt::format("{} {}{}", number, word, number == 1 ? "" : "s");
+}
+
 NodeName node_name(const NodeRef& node, const BusNames& buses, const Settings& settings) {
   NodeName name;
   name.bus = buses.name(node.bus);

@@ -123,6 +123,9 @@ struct RunTotals {
   std::string_view verdict() const;
 };
 
+// "1 error", "2 errors".
+std::string plural(std::uint64_t number, std::string_view word);
+
 NodeName node_name(const NodeRef& node, const BusNames& buses, const Settings& settings);
 
 // Everything but findings, rules, counts and status.

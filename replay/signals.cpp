@@ -13,7 +13,6 @@ std::size_t SeriesList::number(const Segment& segment, const Field& field) {
                 static_cast<std::uint8_t>(node.bus.kind),
                 node.bus.number,
                 node.mac_id,
-                node.place,
                 segment.layout->protocol,
                 segment.layout->key,
                 field.key};

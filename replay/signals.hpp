@@ -41,8 +41,8 @@ class SeriesList {
 
  private:
   // Variants of a layout share their key: a series is its filter name, on one node.
-  using Key = std::tuple<std::uint32_t, std::uint8_t, std::uint8_t, std::int16_t, std::uint8_t, std::string_view,
-                         std::string_view, std::string_view>;
+  using Key = std::tuple<std::uint32_t, std::uint8_t, std::uint8_t, std::int16_t, std::string_view, std::string_view,
+                         std::string_view>;
   struct Entry {
     NodeRef node;
     const Layout* layout = nullptr;

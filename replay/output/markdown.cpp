@@ -48,11 +48,10 @@ class Markdown : public Output {
   }
 
   void end(const RunTotals& totals) override {
-    std::string text = fmt::format(
-        "## servotrace: {}\n\n{} errors, {} warnings, {} notes in {} checked frames of {} "
-        "captures.\n",
-        totals.verdict(), totals.counts.errors, totals.counts.warnings, totals.counts.notes, totals.checked_frames,
-        totals.captures);
+    std::string text = fmt::format("## servotrace: {}\n\n{}, {}, {} in {} of {}.\n", totals.verdict(),
+                                   plural(totals.counts.errors, "error"), plural(totals.counts.warnings, "warning"),
+                                   plural(totals.counts.notes, "note"), plural(totals.checked_frames, "checked frame"),
+                                   plural(totals.captures, "capture"));
     const auto to = std::back_inserter(text);
     if (!rows_.empty()) {
       text += "\n| rule | severity | findings | nodes | what | first |\n|---|---|---:|---:|---|---|\n";

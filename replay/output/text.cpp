@@ -12,10 +12,6 @@
 namespace servotrace::replay {
 namespace {
 
-std::string plural(std::uint64_t number, std::string_view word) {
-  return fmt::format("{} {}{}", number, word, number == 1 ? "" : "s");
-}
-
 class Text : public Output {
  public:
   Text(Out& out, const OutputOptions& options) : Output(out), style_(options.style) {}

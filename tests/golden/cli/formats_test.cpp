@@ -191,7 +191,7 @@ TEST_F(Formats, MergeIsAssociativeAndIndependentOfOrder) {
   EXPECT_EQ(program.run({"merge", "12.jsonl", "3.jsonl"}).out, all);
   // The same as one check of all, in the order of the names.
   const std::vector<std::string> check{"check", "clean.pcapng", "other.pcapng", "run.pcapng", "--output"};
-  for (const std::string& format : {"jsonl", "json", "sarif", "sarif-github", "junit", "github", "markdown"}) {
+  for (const std::string format : {"jsonl", "json", "sarif", "sarif-github", "junit", "github", "markdown"}) {
     std::vector<std::string> once = check;
     once.push_back(format);
     EXPECT_EQ(program.run({"merge", "1.jsonl", "2.jsonl", "3.jsonl", "--output", format}).out, program.run(once).out)
@@ -280,7 +280,7 @@ TEST_F(Formats, RulesAndExplain) {
 TEST_F(Formats, HelpOfEveryCommand) {
   const Outcome all = program.run({"--help"});
   EXPECT_EQ(all.status, 0);
-  for (const std::string& command : {"check", "decode", "info", "explain", "rules", "simulate", "annotate", "merge"}) {
+  for (const std::string command : {"check", "decode", "info", "explain", "rules", "simulate", "annotate", "merge"}) {
     EXPECT_THAT(all.out, HasSubstr("\n  " + command + " "));
     const Outcome help = program.run({command, "--help"});
     EXPECT_EQ(help.status, 0);
