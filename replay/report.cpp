@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "replay/capture/whole_file.hpp"
-#include "replay/command_line.hpp"
+#include "replay/commands.hpp"
 #include "replay/console.hpp"
 #include "replay/exit_status.hpp"
 #include "replay/inputs.hpp"
