@@ -36,6 +36,7 @@ struct CheckOptions {
   std::string progress = "auto";
   unsigned jobs = 1;
   bool allow_empty = false;
+  bool join = false;
 };
 
 // A capture judged, and what its suppressions did.
@@ -171,6 +172,11 @@ Result<Preparation> prepare(const CheckOptions& options, CaptureOptions& capture
   Result<std::vector<CaptureInput>> inputs = expand_inputs(options.captures);
   if (!inputs) return inputs.error();
   ready.inputs = std::move(*inputs);
+  if (options.join && !ready.inputs.empty()) {
+    Result<CaptureInput> joined = join_inputs(ready.inputs);
+    if (!joined) return joined.error();
+    ready.inputs = {std::move(*joined)};
+  }
   if (!options.interface.empty()) ready.inputs.push_back({{}, options.interface});
   for (const CaptureInput& input : ready.inputs) {
     const auto settings = capture_options.settings(input.path);
@@ -285,6 +291,7 @@ int run_check(const Arguments& arguments) {
       ->capture_default_str();
   app.add_option("--color", options.colour, "auto, always or never")->type_name("WHEN")->capture_default_str();
   app.add_option("--progress", options.progress, "auto, always or never")->type_name("WHEN")->capture_default_str();
+  app.add_flag("--join", options.join, "Take all files for parts of one recording, merged by time");
   app.add_flag("--allow-empty", options.allow_empty, "Exit with 0 where nothing was checked");
   app.footer(
       "Exit status: 0 nothing at or above --fail-on, 1 findings, 2 could not do the job, 3 nothing was checked.\n\n"

@@ -12,6 +12,7 @@ constexpr Command kCommands[] = {
     {"info", "what is in a capture: buses, nodes, drives, cycles, learnt settings", &run_info},
     {"explain", "a rule's page: what, why, fix, manual section", &run_explain},
     {"rules", "the catalogue of rules", &run_rules},
+    {"convert", "captures and logs to pcapng, RTEX records into another carrier", &run_convert},
     {"simulate", "makes a capture from a scenario", &run_simulate},
     {"annotate", "the capture again with every finding as a packet comment", &run_annotate},
     {"export", "signals as CSV, states as a Perfetto trace", &run_export},

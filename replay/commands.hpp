@@ -28,6 +28,7 @@ int run_simulate(const Arguments& arguments);
 int run_annotate(const Arguments& arguments);
 int run_export(const Arguments& arguments);
 int run_config(const Arguments& arguments);
+int run_convert(const Arguments& arguments);
 int run_merge(const Arguments& arguments);
 
 // The whole program, without its name in front. Used by main() and the tests.

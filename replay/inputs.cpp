@@ -7,6 +7,8 @@
 #include <iterator>
 #include <string_view>
 
+#include "replay/capture/join.hpp"
+
 namespace servotrace::replay {
 namespace {
 
@@ -74,6 +76,16 @@ Result<std::vector<CaptureInput>> expand_inputs(const std::vector<std::string>& 
   return inputs;
 }
 
+Result<CaptureInput> join_inputs(const std::vector<CaptureInput>& inputs) {
+  CaptureInput joined = inputs.front();
+  for (const CaptureInput& input : inputs) {
+    if (input.is_stream()) return Error{"--join", "a stream cannot be joined with other captures"};
+    joined.parts.push_back(input.path);
+  }
+  if (inputs.size() > 1) joined.name += "+" + std::to_string(inputs.size() - 1);
+  return joined;
+}
+
 Result<CaptureInput> single_input(const std::string& argument) {
   Result<std::vector<CaptureInput>> inputs = expand_inputs({argument});
   if (!inputs) return inputs.error();
@@ -82,6 +94,7 @@ Result<CaptureInput> single_input(const std::string& argument) {
 }
 
 Result<std::unique_ptr<Source>> open_input(const CaptureInput& input) {
+  if (!input.parts.empty()) return join_captures(input.parts);
   return input.is_stream() ? open_stream(STDIN_FILENO, input.name) : open_capture(input.path);
 }
 

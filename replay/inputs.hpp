@@ -14,8 +14,9 @@
 namespace servotrace::replay {
 
 struct CaptureInput {
-  std::filesystem::path path;  // empty: standard input
-  std::string name;            // for people and results
+  std::filesystem::path path;                     // empty: standard input
+  std::string name;                               // for people and results
+  std::vector<std::filesystem::path> parts = {};  // files of one recording; `path` is the first of them
 
   bool is_stream() const { return path.empty(); }
 };
@@ -23,6 +24,9 @@ struct CaptureInput {
 // Every capture the arguments name, in the order given; those of a folder (and the folders in it) sorted by path. A
 // missing file, a folder without captures, or standard input named twice is an error.
 Result<std::vector<CaptureInput>> expand_inputs(const std::vector<std::string>& arguments);
+
+// All of them as one recording, merged by time (--join). A stream cannot be part of one.
+Result<CaptureInput> join_inputs(const std::vector<CaptureInput>& inputs);
 
 // The one capture an argument names; a folder of several is an error.
 Result<CaptureInput> single_input(const std::string& argument);
