@@ -71,7 +71,9 @@ void append_axis(std::string& text, const NodeRecord& axis) {
   for (const Fact& fact : axis.settings) {
     const bool known = fact.basis.kind == BasisKind::kCapture || fact.basis.kind == BasisKind::kConfigured;
     const std::string value = leading_integer(fact.value);
-    if (!known || !fact.key.starts_with("Pr") || value.empty()) continue;
+    // Single bits ("Pr7.23 bit 0") are no whole parameter.
+    const bool whole = fact.key.starts_with("Pr") && fact.key.find_first_not_of("0123456789.", 2) == std::string::npos;
+    if (!known || !whole || value.empty()) continue;
     parameters += fmt::format("{}\"{}\" = {}", parameters.empty() ? "" : ", ", fact.key.substr(2), value);
   }
   if (const Fact* const size = find_fact(axis.settings, "data_size"); size && is_integer(size->value)) {
