@@ -27,6 +27,7 @@ class Decompressed : public BufferedInput {
   Bytes more() {
     const Bytes at_hand = compressed_->at_hand();
     const Bytes there = at_hand.empty() ? compressed_->peek(1) : at_hand;
+    if (compressed_->lost()) failure_ = kLost;
     if (there.empty() && compressed_->failure()) failure_ = *compressed_->failure();
     if (there.empty()) return {};
     const Bytes all = compressed_->at_hand();

@@ -2,7 +2,6 @@
 #include "replay/capture/input.hpp"
 
 #include <fcntl.h>
-#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -12,6 +11,7 @@
 #include <system_error>
 
 #include "replay/capture/limits.hpp"
+#include "replay/capture/mapped_file.hpp"
 
 namespace servotrace::replay {
 namespace {
@@ -20,19 +20,18 @@ std::string reason(int error) { return std::generic_category().message(error); }
 
 class MappedInput final : public Input {
  public:
-  MappedInput(void* address, std::size_t length) : address_(address), length_(length) {
-    begin_ = cursor_ = static_cast<const std::uint8_t*>(address);
-    end_ = begin_ + length;
-    size_ = length;
-    ::madvise(address, length, MADV_SEQUENTIAL);
+  explicit MappedInput(std::unique_ptr<MappedFile> file) : file_(std::move(file)) {
+    const Bytes bytes = file_->bytes();
+    begin_ = cursor_ = bytes.data();
+    end_ = begin_ + bytes.size();
+    size_ = bytes.size();
+    lost_ = file_->lost();
   }
-  ~MappedInput() override { ::munmap(address_, length_); }
 
  private:
   void refill(std::size_t) override {}  // all there is, is there
 
-  void* address_;
-  std::size_t length_;
+  std::unique_ptr<MappedFile> file_;
 };
 
 class MemoryInput final : public Input {
@@ -102,8 +101,8 @@ Result<std::unique_ptr<Input>> open_input(const std::filesystem::path& path) {
   if (S_ISDIR(status.st_mode)) return Error{name, "is a directory, not a capture"};
   if (S_ISREG(status.st_mode) && status.st_size > 0) {
     const auto length = static_cast<std::size_t>(status.st_size);
-    void* const address = ::mmap(nullptr, length, PROT_READ, MAP_PRIVATE, descriptor, 0);
-    if (address != MAP_FAILED) return std::unique_ptr<Input>(std::make_unique<MappedInput>(address, length));
+    if (auto mapped = MappedFile::map(descriptor, length))
+      return std::unique_ptr<Input>(std::make_unique<MappedInput>(std::move(mapped)));
   }
   return std::unique_ptr<Input>(std::move(closing));
 }

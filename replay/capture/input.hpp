@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cassert>
+#include <csignal>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -43,6 +44,9 @@ class Input {
   std::uint64_t size() const { return size_; }
   // Set once reading broke: the bytes before it hold.
   const std::optional<std::string>& failure() const { return failure_; }
+  // A memory-mapped file was cut or could not be read while it was in use: what was peeked at last may be zeros. Touch
+  // the bytes, then ask.
+  bool lost() const { return *lost_ != 0; }
   // Of what lies on disk, for progress: differs from position() and size() where the input is compressed.
   virtual std::uint64_t consumed() const { return position(); }
   virtual std::uint64_t total() const { return size_; }
@@ -57,7 +61,12 @@ class Input {
   std::uint64_t base_ = 0;  // position of begin_
   std::uint64_t size_ = 0;
   std::optional<std::string> failure_;
+  static constexpr std::sig_atomic_t kNothingLost = 0;
+  const volatile std::sig_atomic_t* lost_ = &kNothingLost;
 };
+
+// What to say where lost() is true.
+inline constexpr const char* kLost = "cannot be read on: the file was cut while it was read, or its disk fails";
 
 // An input that is read piece by piece into a buffer.
 class BufferedInput : public Input {

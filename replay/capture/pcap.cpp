@@ -63,6 +63,7 @@ class PcapSource final : public FileSource {
     const std::size_t whole = record_header_ + captured;
     const Bytes record = input_->peek(whole);
     if (record.size() < whole) return end(record.size(), whole);
+    if (!intact(record)) return fail_lost();
     frame.number = ++number_;
     const std::uint32_t second = load32(record.data(), swap_);
     const std::uint32_t fraction = load32(record.data() + 4, swap_);

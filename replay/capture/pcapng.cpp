@@ -124,6 +124,7 @@ class PcapngSource final : public FileSource {
     }
     block = input_->peek(total);
     if (block.size() < total) return end(block.size(), total);
+    if (!intact(block)) return fail_lost();
     const std::size_t again = load32(block.data() + total - 4, swap);
     if (again != total) {
       return fail(input_->position() + total - 4, "a pcapng block of " + std::to_string(total) +

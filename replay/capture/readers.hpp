@@ -26,9 +26,19 @@ class FileSource : public Source {
     return Error{name_ + ": byte " + std::to_string(at), std::move(what)};
   }
   Step fail(std::uint64_t at, std::string what) {
-    error_ = broken(at, std::move(what));
+    // What looks damaged may be a page that could not be read.
+    error_ = broken(at, input_->lost() ? std::string(kLost) : std::move(what));
     return Step::kError;
   }
+  // Touches every page of `bytes`, so that what cannot be read shows now and not in the hands of the caller. False
+  // where something could not: the reader then fails.
+  bool intact(Bytes bytes) const {
+    constexpr std::size_t kPage = 4096;
+    for (std::size_t at = kPage; at < bytes.size(); at += kPage) touch(bytes[at]);
+    if (!bytes.empty()) touch(bytes.back());
+    return !input_->lost();
+  }
+  Step fail_lost() { return fail(input_->position(), kLost); }
   // Of a record only `captured` of `expected` bytes are there.
   Step end(std::uint64_t captured, std::uint64_t expected) {
     if (input_->failure()) return fail(input_->position() + captured, *input_->failure());
@@ -38,6 +48,12 @@ class FileSource : public Source {
 
   std::unique_ptr<Input> input_;
   std::string name_;
+
+ private:
+  static void touch(const std::uint8_t& byte) {
+    const volatile std::uint8_t* const place = &byte;
+    static_cast<void>(*place);
+  }
 };
 
 Result<std::unique_ptr<Source>> read_pcap(std::unique_ptr<Input> input, std::string name, std::string format);

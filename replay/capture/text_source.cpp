@@ -26,6 +26,7 @@ Source::Step TextSource::read_line(std::string_view& line) {
     const Bytes there = input_->at_hand();
     const std::size_t reach = std::min(there.size(), kMaxLine);
     const void* const found = reach > searched ? std::memchr(there.data() + searched, '\n', reach - searched) : nullptr;
+    if (input_->lost()) return fail_line(kLost);
     if (found != nullptr) {
       const auto length = static_cast<std::size_t>(static_cast<const std::uint8_t*>(found) - there.data());
       line = std::string_view(reinterpret_cast<const char*>(there.data()), length);
