@@ -19,7 +19,7 @@ struct Chosen {
   guint ethertype = kEthertype;
   guint udp_port = kUdpPort;
   guint user_link_type = 0;
-  gboolean can_is_devicenet = FALSE;
+  WsBool can_is_devicenet = false;
   const char* settings_file = "";
 };
 Chosen& chosen() {
@@ -79,7 +79,7 @@ replay::FileSettings current_settings() {
   if (!has_file || carriers.udp_port != kUdpPort) decoder.rtex.udp_port = carriers.udp_port;
   if (!has_file || carriers.user_link_type != 0) decoder.rtex.user_link_type = carriers.user_link_type;
   apply_tables(decoder);
-  if (chosen().can_is_devicenet != FALSE || can_is_decoded_as_devicenet()) decoder.devicenet.assumed = true;
+  if (chosen().can_is_devicenet || can_is_decoded_as_devicenet()) decoder.devicenet.assumed = true;
   return settings;
 }
 

@@ -15,8 +15,6 @@
 #include <epan/tap.h>
 #include <epan/tfs.h>
 #include <epan/uat.h>
-#include <epan/unit_strings.h>
-#include <epan/value_string.h>
 #include <wiretap/pcap-encap.h>
 #include <wiretap/wtap.h>
 #include <ws_version.h>
@@ -30,7 +28,7 @@
 
 namespace servotrace::plugin {
 
-// What a heuristic dissector and a UAT check return.
+// What heuristic dissectors and UAT checks return and boolean preferences are kept in.
 #if SERVOTRACE_WS_AT_LEAST(4, 4)
 using WsBool = bool;
 #else
