@@ -87,11 +87,11 @@ TEST_F(Check, SettingsAreFoundUpwardAndObeyed) {
 
 TEST_F(Check, BrokenSettingsAreOneLineWithTheirPlace) {
   program.simulate("cp102_time_backwards", "run");
-  program.write("servotrace.toml", "[limits]\necho = 5\n");
+  program.write("servotrace.toml", "[limits]\nechoms = 5\n");
   const Outcome outcome = program.run({"check", "run.pcapng"});
   EXPECT_EQ(outcome.status, 2);
   EXPECT_THAT(outcome.out, IsEmpty());
-  EXPECT_THAT(outcome.err, EndsWith("servotrace.toml:2:1: unknown key 'echo' in [limits] (did you mean 'echo_ms'?)\n"));
+  EXPECT_THAT(outcome.err, EndsWith("servotrace.toml:2:1: unknown key 'echoms' in [limits] (did you mean 'echo_ms'?)\n"));
   EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1);
   EXPECT_EQ(program.run({"check", "run.pcapng", "--config", "none.toml"}).err,
             "servotrace: none.toml: cannot be opened\n");
