@@ -247,6 +247,7 @@ void Bus::poll_answered(const Arrival& arrival, Node& node) {
   findings_.calm(node.poll_owner, rule("DN205"));
   findings_.calm(node.poll_owner, rule("DN201"));
   step(node, PollEvent::kResponse);
+  if (poll.watched) note_deadline(watchdog_deadline_ns(node));  // established by this response, not by a command
   derive(arrival.context.dissection, kPollStateField, static_cast<std::int64_t>(poll.state), node.ref);
   const Bytes data = arrival.can.data;
   if (!data.empty()) {

@@ -61,7 +61,9 @@ void Engine::step_command(Scene& scene, ChannelState& channel) {
   channel.next_not_started = false;
   if (row.action != HandshakeStep::kNone) run(scene, kHandshakeStep | (begins ? kStart : kNoEvent));
   const bool leaves = row.action == HandshakeStep::kLeft || row.action == HandshakeStep::kLeftBusy ||
-                      (row.action == HandshakeStep::kEarly && row.to == Handshake::kStandard);
+                      (row.action == HandshakeStep::kEarly && row.to == Handshake::kStandard) ||
+                      // Held since before a gap: that it is left is known, and a reset stops the ring all the same.
+                      (channel.state == Handshake::kUnknown && row.to == Handshake::kStandard);
   if (leaves || begins) {
     if (channel.id == Channel::kMain) {
       if (is_homing_search(channel.hold.part)) channel.process.busy = false;

@@ -43,7 +43,11 @@ std::string_view nearest(std::string_view word, std::span<const std::string_view
     best = candidate;
     best_distance = distance;
   }
-  return best;
+  if (!best.empty() || word.size() < 3) return best;
+  for (const std::string_view candidate : candidates) {  // begun, but not written to its end: echo for echo_ms
+    if (candidate.size() > word.size() && edit_distance(word, candidate.substr(0, word.size())) == 0) return candidate;
+  }
+  return {};
 }
 
 std::string did_you_mean(std::string_view word, std::span<const std::string_view> candidates) {

@@ -473,10 +473,11 @@ TEST(RX301, ExtendModeAllowsIt) {
 TEST(RX301, ExtendModeStartsProfilesFromNormalOnly) {
   Bench bench(1, extend_mode());
   bench.set(0, "cyclic_command", 1);
+  bench.set(0, "servo_on", 1);
   bench.cycles(10);
   bench.non_cyclic(0, 10, 0x05);
   bench.cycles(5);
-  bench.non_cyclic(0, 7, 0x10);
+  bench.non_cyclic(0, 7, 0x20);
   bench.cycles(5);
   EXPECT_EQ(bench.rules(), "RX301");
 }
