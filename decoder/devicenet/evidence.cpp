@@ -2,6 +2,7 @@
 #include "decoder/devicenet/evidence.hpp"
 
 #include "decoder/devicenet/decode.hpp"
+#include "decoder/devicenet/fragments.hpp"
 
 namespace servotrace::devicenet {
 
@@ -21,11 +22,26 @@ std::string_view name_of(EvidenceKind kind) {
   return "none";
 }
 
+// A message of up to 8 bytes may look like a fragment; none is followed by a frame with the next count by itself.
+bool Evidence::Parts::continued_by(Bytes data) {
+  const bool was_open = open;
+  open = false;
+  if (data.size() < kFragment.size) return false;
+  const auto type = static_cast<FragmentType>(read(slot(kFragment, "type"), data));
+  const auto next = static_cast<std::uint8_t>(read(slot(kFragment, "count"), data));
+  const bool middle = type == FragmentType::kMiddle;
+  const bool follows = was_open && (middle || type == FragmentType::kLast) && next == ((count + 1U) & 0x3FU);
+  open = middle ? follows : type == FragmentType::kFirst && next == 0;
+  count = next;
+  return follows;
+}
+
 void Evidence::gap() {
   for (Node& node : nodes_) {
     node.requested = false;
     node.polled = false;
     node.poll_pairs = 0;
+    node.command.open = node.response.open = false;
   }
 }
 
@@ -67,10 +83,14 @@ EvidenceKind Evidence::push(const Identifier& id, const can::Frame& frame) {
       return node.allocation ? EvidenceKind::kAllocation : EvidenceKind::kExplicitPair;
     }
     case MessageKind::kPollCommand:
+      node.response.open = false;
+      if (node.command.continued_by(data)) break;
       if (node.polled) node.poll_pairs = 0;
       node.polled = true;
       break;
     case MessageKind::kPollResponse:
+      node.command.open = false;
+      if (node.response.continued_by(data)) break;
       if (!node.polled) {
         node.poll_pairs = 0;
         break;

@@ -24,6 +24,13 @@ class Evidence {
   void gap();
 
  private:
+  // What the last poll frame of one direction was, if it may have been a fragment that another one follows.
+  struct Parts {
+    bool open = false;
+    std::uint8_t count = 0;
+    // True where `data` goes on with the message of the frame before.
+    bool continued_by(Bytes data);
+  };
   struct Node {
     bool checked = false;  // a Duplicate MAC ID request was seen
     std::uint16_t vendor_id = 0;
@@ -34,6 +41,8 @@ class Evidence {
     std::uint8_t service = 0;
     bool polled = false;
     std::uint8_t poll_pairs = 0;  // in a row
+    Parts command;
+    Parts response;
   };
   std::array<Node, kMacIds> nodes_ = {};
 };
