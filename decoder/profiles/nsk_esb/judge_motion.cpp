@@ -115,8 +115,8 @@ void Session::judge_home(const Context& context, const Message& message, const I
   if (output_->hcmp) return;
   const std::int32_t* homes = known_value(kProgramHome);
   Programs::Start start = Programs::Start::kAbsolute;
+  if (homes != nullptr && *homes != 0) return;
   if (kind == StartKind::kRun) {
-    if (homes != nullptr && *homes != 0) return;
     start = programs_.start_of(input.prg);
     if (start == Programs::Start::kHomesFirst || start == Programs::Start::kOther) return;
   }

@@ -14,7 +14,7 @@ inline constexpr std::uint16_t kDataOffset = 6;    // of PRM_SET_DATA and PRM_GE
 inline constexpr ValueName kDirectionNames[] = {{0, "CW"}, {1, "CCW"}};
 inline constexpr ValueName kOperationNames[] = {{0, "read"}, {1, "write"}};
 inline constexpr ValueName kBrakeNames[] = {{0, "clamp"}, {1, "unclamp"}};
-inline constexpr ValueName kResultNames[] = {{0, "failed"}, {1, "successful"}};
+inline constexpr ValueName kResultNames[] = {{0, "failed or not processed"}, {1, "successful"}};
 
 inline constexpr Field kInputFields[] = {
     {.key = "emst",

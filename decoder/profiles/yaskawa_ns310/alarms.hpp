@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <utility>
 
 #include "decoder/core/layout.hpp"
 
@@ -117,6 +118,28 @@ inline constexpr std::int64_t kCodeNotRead = -1;
 inline constexpr std::int64_t kCodeUnknown = -2;
 
 namespace detail {
+// Causes and remedies of one alarm in one text, joined at compile time.
+template <std::size_t kIndex>
+struct AdviceText {
+  static constexpr std::string_view kBetween = "; remedies: ";
+  static constexpr const Alarm& kAlarm = kAlarms[kIndex];
+  static constexpr std::size_t kSize = kAlarm.causes.size() + kBetween.size() + kAlarm.remedies.size();
+  static constexpr std::array<char, kSize> kText = [] {
+    std::array<char, kSize> text{};
+    std::size_t next = 0;
+    for (const std::string_view part : {kAlarm.causes, kBetween, kAlarm.remedies}) {
+      for (const char c : part) text[next++] = c;
+    }
+    return text;
+  }();
+};
+template <std::size_t... kIndices>
+consteval auto alarm_advice(std::index_sequence<kIndices...>) {
+  return std::array<ValueName, sizeof...(kIndices) + 2>{
+      ValueName{kCodeUnknown, "not in Table C.1"}, ValueName{kCodeNotRead, "unknown"},
+      ValueName{kAlarms[kIndices].code,
+                std::string_view(AdviceText<kIndices>::kText.data(), AdviceText<kIndices>::kSize)}...};
+}
 // One column of the table as names of the codes, behind rows for what the table cannot say.
 template <class Column>
 consteval auto alarm_column(std::string_view not_read, std::string_view unknown, Column column) {
@@ -141,7 +164,7 @@ inline constexpr auto kAlarmNames = detail::alarm_column("its code was not read 
                                                          [](const Alarm& alarm) { return alarm.name; });
 inline constexpr auto kAlarmSgdh =
     detail::alarm_column("unknown", "not in Table C.1", [](const Alarm& alarm) { return alarm.sgdh; });
-inline constexpr auto kAlarmCauses =
-    detail::alarm_column("unknown", "not in Table C.1", [](const Alarm& alarm) { return alarm.causes; });
+// "<causes>; remedies: <remedies>".
+inline constexpr auto kAlarmAdvice = detail::alarm_advice(std::make_index_sequence<kAlarms.size()>());
 
 }  // namespace servotrace::ns310

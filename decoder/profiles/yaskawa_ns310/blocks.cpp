@@ -34,7 +34,7 @@ const std::int32_t* Block::find(BlockValue what) const {
 
 unsigned Block::unwritten() const {
   const BlockFormat* row = format();
-  if (row == nullptr || !set_singly) return 0;
+  if (row == nullptr || !set_singly || !certain) return 0;
   for (std::size_t i = 0; i < row->count; ++i) {
     if (!row->attributes[i]->zero_is_value && (written >> i & 1U) == 0) return static_cast<unsigned>(i) + 3;
   }
@@ -48,6 +48,7 @@ void Blocks::set(Block& block, unsigned attribute, Bytes data, bool written, std
     if (written) {
       block = Block{.command_known = true, .link_known = true, .set_singly = true, .known = 0xFF, .frame = frame};
     }
+    block.certain = true;
     block.command_known = true;
     block.command = data[0];
   } else if (attribute == 2) {
@@ -65,7 +66,12 @@ bool Blocks::set_all(Block& block, Bytes data, std::uint64_t frame) {
   if (data.size() < 2) return false;
   const BlockFormat* format = find_block_format(data[0]);
   if (format == nullptr) {
-    block = Block{.command_known = true, .link_known = true, .command = data[0], .link = data[1], .frame = frame};
+    block = Block{.command_known = true,
+                  .link_known = true,
+                  .certain = true,
+                  .command = data[0],
+                  .link = data[1],
+                  .frame = frame};
     return true;
   }
   std::size_t size = 2;
@@ -77,6 +83,7 @@ bool Blocks::set_all(Block& block, Bytes data, std::uint64_t frame) {
   if (data.size() != size && data.size() != printed) return false;
   block = Block{.command_known = true,
                 .link_known = true,
+                .certain = true,
                 .command = data[0],
                 .link = data[1],
                 .known = 0xFF,
@@ -114,7 +121,9 @@ void Blocks::reach(std::uint8_t number, Reached& reached) const {
 bool Blocks::runs_forever(std::uint8_t number) const {
   for (std::size_t hops = 0; hops < blocks_.size(); ++hops) {
     const Block& block = blocks_[number];
-    if (number == 0 || !block.command_known || !block.link_known || !never_waits(block.command)) return false;
+    if (number == 0 || !block.command_known || !block.link_known || !block.certain || !never_waits(block.command)) {
+      return false;
+    }
     number = block.link;
   }
   return true;
@@ -125,7 +134,7 @@ Blocks::Fault Blocks::chain_fault(std::uint8_t number) const {
   reach(number, reached);
   for (std::size_t i = 1; i < reached.size(); ++i) {
     const Block& block = blocks_[i];
-    if (!reached[i] || !block.command_known || block.format() != nullptr) continue;
+    if (!reached[i] || !block.command_known || !block.certain || block.format() != nullptr) continue;
     return {Fault::Kind::kEmpty, static_cast<std::uint8_t>(i), 0, block.frame};
   }
   for (std::size_t i = 1; i < reached.size(); ++i) {
@@ -173,19 +182,31 @@ void append_block(BlockText& text, std::uint8_t number, const Block& block) {
   }
 }
 
+// Along the links first; the other ways of conditional blocks follow behind.
 void append_chain(BlockText& text, const Blocks& blocks, std::uint8_t number) {
   std::array<bool, 256> seen{};
+  std::array<std::uint8_t, 256> open{};
+  std::size_t count = 0;
+  open[count++] = number;
   bool first = true;
-  while (number != 0 && !seen[number]) {
-    seen[number] = true;
-    if (!first) text << "; ";
-    first = false;
-    const Block& block = blocks.at(number);
-    append_block(text, number, block);
-    if (!block.link_known) return;
-    number = block.link;
+  for (std::size_t i = 0; i < count; ++i) {
+    std::uint8_t at = open[i];
+    while (at != 0 && !seen[at]) {
+      seen[at] = true;
+      if (!first) text << "; ";
+      first = false;
+      const Block& block = blocks.at(at);
+      append_block(text, at, block);
+      if (is_conditional(block.command) && count < open.size()) {
+        if (const std::int32_t* other = block.find(BlockValue::kCompareLink)) {
+          open[count++] = static_cast<std::uint8_t>(*other);
+        }
+      }
+      if (!block.link_known) break;
+      at = block.link;
+      if (at != 0 && seen[at]) text << "; again from " << std::int64_t{at};
+    }
   }
-  if (number != 0) text << "; again from " << std::int64_t{number};
 }
 
 }  // namespace servotrace::ns310

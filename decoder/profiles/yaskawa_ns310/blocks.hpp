@@ -172,6 +172,7 @@ struct Block {
   bool command_known = false;
   bool link_known = false;
   bool set_singly = false;  // attribute 1 was set alone: the others began at 0
+  bool certain = false;     // no record was lost since its command was seen
   std::uint8_t command = 0;
   std::uint8_t link = 0;
   std::uint8_t known = 0;    // bit n: value n (attribute n + 3) is known
@@ -190,6 +191,10 @@ class Blocks {
  public:
   const Block& at(std::uint8_t number) const { return blocks_[number]; }
   void forget() { blocks_ = {}; }
+  // Records were lost: a Set may be among them.
+  void doubt() {
+    for (Block& block : blocks_) block.certain = false;
+  }
   // `data`: of one attribute. A command sets every other attribute to 0 (5.5.2).
   static void set(Block& block, unsigned attribute, Bytes data, bool written, std::uint64_t frame);
   // `data`: of Get/Set_Attribute_All. False where it fits no format.

@@ -172,7 +172,7 @@ void Session::judge_start(const Context& context, const Message& message, const 
   } else if (block) {
     checked(context, rule("YS301"));
     judge_parameters_at_start(context, head);
-    judge_chain(context, message, command);
+    judge_chain(context, command.block_number, in(message, 0, 2));
     candidate_ = Operation::kBlock;
     homing_block_ = 0;
   }

@@ -81,6 +81,7 @@ void Session::on_explicit(const Context& context, const ExplicitExchange& exchan
   if (!exchange.is_response) {
     if (exchange.class_id == kIdentity && exchange.service == kReset) judge_pairs(context);
     if (exchange.class_id == kCommandBlock && sets) judge_block_request(context, exchange);
+    if (exchange.class_id == kSequencer && exchange.service == kSet) judge_sequencer_start(context, exchange);
     return;
   }
   if (exchange.is_error) return;
@@ -129,6 +130,7 @@ void Session::learn_parameter(const Context& context, const ExplicitExchange& ex
       filter_ = {row.filter, basis};
     }
   }
+  if (class_id == kSequencer && attribute == 1) sequencer_block_ = static_cast<std::uint8_t>(value);
   if (class_id == kSequencer && attribute == 5 && !written && pending_block_fault_.active) {
     issue_block_fault(context, value);
   }
@@ -279,28 +281,36 @@ void Session::learn_block(const Context& context, const ExplicitExchange& exchan
   add(context, kBlockListing, "ns310", 0, text_.view());
 }
 
-// Start_Block: what is wrong with the chain it starts.
-void Session::judge_chain(const Context& context, const Message& message, const Command& command) {
-  const ByteRange where = bytes_in_frame(message, 0, 2);
+// A Set of 26h/2 starts the chain that 26h/1 names (B.8).
+void Session::judge_sequencer_start(const Context& context, const ExplicitExchange& exchange) {
+  if (exchange.attribute != 2 || exchange.request_data.empty() || value_of(exchange.request_data) == 0) return;
+  const ByteRange where = exchange.request.in_frame;
+  judge_parameters_at_start(context, where);
+  homing_block_ = 0;
+  if (sequencer_block_ && *sequencer_block_ != 0) judge_chain(context, *sequencer_block_, where);
+}
+
+// A start of command blocks: what is wrong with the chain from `first` on.
+void Session::judge_chain(const Context& context, std::uint8_t first, ByteRange where) {
   checked(context, rule("YS303"));
   checked(context, rule("YS304"));
-  if (const auto fault = blocks_.half_written(command.block_number); fault.kind != Blocks::Fault::Kind::kNone) {
+  if (const auto fault = blocks_.half_written(first); fault.kind != Blocks::Fault::Kind::kNone) {
     raise(context, {.rule = rule("YS303"),
                     .arguments = {fault.block, static_cast<std::int64_t>(fault.attribute)},
                     .where = where,
                     .related = {fault.frame}});
   }
-  if (const auto fault = blocks_.chain_fault(command.block_number); fault.kind != Blocks::Fault::Kind::kNone) {
+  if (const auto fault = blocks_.chain_fault(first); fault.kind != Blocks::Fault::Kind::kNone) {
     const bool empty = fault.kind == Blocks::Fault::Kind::kEmpty;
     raise(context, {.rule = rule("YS304"),
-                    .arguments = {command.block_number, fault.block, empty ? 0 : 1},
+                    .arguments = {first, fault.block, empty ? 0 : 1},
                     .where = where,
                     .related = {fault.frame},
                     .as_error = empty});
   }
   if (context.dissection == nullptr) return;
   text_.clear();
-  append_chain(text_, blocks_, command.block_number);
+  append_chain(text_, blocks_, first);
   add(context, kBlockListing, "ns310", 0, text_.view());
 }
 

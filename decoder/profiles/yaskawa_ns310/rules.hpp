@@ -343,7 +343,7 @@ inline constexpr auto kRules = std::to_array<Rule>({
      .arguments = {{{ArgumentFormat::kHex2Name, kAlarmNames},
                     {ArgumentFormat::kName, kPhaseNames},
                     {ArgumentFormat::kName, kAlarmSgdh},
-                    {ArgumentFormat::kName, kAlarmCauses}}},
+                    {ArgumentFormat::kName, kAlarmAdvice}}},
      .section = "SIE-C718-7 C.1, 9",
      .why = "NS310 or SGDH have detected a fault; every operation is disabled until it is cleared.",
      .fix = "Remove the cause, then clear the alarm (command code 1Eh, started with Start Trajectory).",

@@ -31,12 +31,22 @@ void Session::on_response(const Context& context, const Message& message) {
   add(context, message, kResponse, 0, Direction::kResponse);
   const Response response = read_response(message.bytes, context.frame.number, context.frame.time_ns);
   add(context, message, response_data(response.code), kDataOffset, Direction::kResponse);
+  if (response.is(ResponseCode::kAlarmCode)) show_alarm(context, response.data);
   track_operation(response);
   judge_echoes(context, message, response);
   judge_home_travel(context, message, response);
   judge_reports(context, message, response);
   response_ = response;
   expire(context);
+}
+
+void Session::show_alarm(const Context& context, std::int64_t code) const {
+  const Alarm* alarm = find_alarm(code);
+  if (alarm == nullptr || context.dissection == nullptr) return;
+  add(context, kAlarmSgdhText, "ns310", 0, alarm->sgdh);
+  add(context, kAlarmIndicatorText, "ns310", 0, kIndicatorNames[static_cast<std::size_t>(alarm->indicator)]);
+  add(context, kAlarmCausesText, "ns310", 0, alarm->causes);
+  add(context, kAlarmRemediesText, "ns310", 0, alarm->remedies);
 }
 
 void Session::on_time(const Context& context) { expire(context); }
@@ -49,6 +59,7 @@ void Session::on_start(const Context&) {
   needs_reset_.active = false;
   if (written_direction_.basis.kind == BasisKind::kCapture) reference_direction_ = written_direction_;
   blocks_.forget();
+  sequencer_block_.reset();
 }
 
 void Session::on_gap() {
@@ -65,6 +76,9 @@ void Session::on_gap() {
   candidate_ = Operation::kUnknown;
   position_.reset();
   start_seen_ = false;  // a homing may have been lost
+  // So may a Set: what is shown stays, what is judged is not known any more.
+  blocks_.doubt();
+  sequencer_block_.reset();
 }
 
 void Session::on_finish(const Context& context) {

@@ -62,6 +62,8 @@ class Session final : public DriveBase {
     std::uint8_t limits = 0;  // bit 0 CW, 1 CCW, 2 positive, 3 negative
   };
 
+  void show_alarm(const Context& context, std::int64_t code) const;
+
   // judge_command.cpp
   void judge_data(const Context& context, const Message& message, const Command& command);
   void judge_start(const Context& context, const Message& message, const Command& command);
@@ -90,7 +92,8 @@ class Session final : public DriveBase {
   void judge_block_request(const Context& context, const ExplicitExchange& exchange);
   void learn_block(const Context& context, const ExplicitExchange& exchange);
   void show_block(const Context& context, const Message& message, const Block& block, Direction direction) const;
-  void judge_chain(const Context& context, const Message& message, const Command& command);
+  void judge_chain(const Context& context, std::uint8_t first, ByteRange where);
+  void judge_sequencer_start(const Context& context, const ExplicitExchange& exchange);
 
   // judge_response.cpp
   void judge_echoes(const Context& context, const Message& message, const Response& response);
@@ -145,8 +148,9 @@ class Session final : public DriveBase {
   bool flash_dirty_ = false;  // a parameter was set since the last start
   Hourly flash_starts_;
   Blocks blocks_;
-  std::uint8_t homing_block_ = 0;  // the block 10h that was judged (YS202)
-  BlockText text_;                 // of the derived fields; valid as long as the dissection
+  std::optional<std::uint8_t> sequencer_block_;  // 26h/1, where the capture shows it
+  std::uint8_t homing_block_ = 0;                // the block 10h that was judged (YS202)
+  BlockText text_;                               // of the derived fields; valid as long as the dissection
 
   Durations valid_echo_;
   Durations start_echo_;
