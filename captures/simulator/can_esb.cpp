@@ -19,6 +19,7 @@ constexpr std::int64_t kStopDeceleration = 40'000'000;  // MD = 0: stop immediat
 constexpr std::int64_t kSensorWidth = 8'000;            // pulses
 constexpr std::int16_t kJump = 640;
 constexpr std::int16_t kTimer = 641;
+constexpr std::uint16_t kProgramHome = 141;
 constexpr std::int32_t kExecuteNext = 1;
 constexpr std::int32_t kWaitForRun = 2;
 
@@ -164,7 +165,7 @@ void Esb::take_command(Bytes bytes) {
   if (last_.run && !before.run && !ignore_run) {
     if (waits_for_run_) {
       waits_for_run_ = false;
-      go_to(running_channel_ + 1);
+      go_on();
     } else {
       start_program(last_.channel);
     }
@@ -243,15 +244,16 @@ bool Esb::start_program(std::uint8_t channel) {
   if (!can_start() || axis_.moving() || work_ != Work::kNone) return false;
   work_ = Work::kProgram;
   waits_for_run_ = false;
+  homes_first_ = parameter(kProgramHome) == 2 || (parameter(kProgramHome) == 1 && !homed_);
   return go_to(channel);
 }
 
 // An empty channel is a program error (F5).
 bool Esb::go_to(std::int64_t channel) {
   command_started_ = false;
-  if (channel < static_cast<std::int64_t>(programs_.size()) &&
-      programs_[static_cast<std::size_t>(channel)].number != 0) {
+  if (channel < static_cast<std::int64_t>(programs_.size()) && !programs_[static_cast<std::size_t>(channel)].empty()) {
     running_channel_ = static_cast<std::uint8_t>(channel);
+    running_line_ = 0;
     return true;
   }
   alarm_ = find_esb_alarm("F5");
@@ -259,22 +261,36 @@ bool Esb::go_to(std::int64_t channel) {
   return false;
 }
 
+void Esb::go_on() {
+  if (running_line_ + 1 < programs_[running_channel_].size()) {
+    ++running_line_;
+    command_started_ = false;
+  } else {
+    go_to(running_channel_ + 1);
+  }
+}
+
+std::int32_t Esb::Line::option(std::int16_t number_of_it, std::int32_t otherwise) const {
+  const auto found = options.find(number_of_it);
+  return found == options.end() ? otherwise : found->second;
+}
+
+void Esb::move_home() {
+  const std::int64_t rest = within_turn(axis_.position());
+  axis_.acceleration = axis_.deceleration = std::int64_t{parameter(125)} * 8192;
+  axis_.move_to(axis_.position() - rest, scaled_speed(parameter(124)));
+}
+
 void Esb::run_command() {
-  const Program& program = programs_[running_channel_];
-  const auto option = [&](std::int16_t number, std::int32_t otherwise) {
-    const auto found = program.options.find(number);
-    return found == program.options.end() ? otherwise : found->second;
-  };
+  const Line& line = programs_[running_channel_][running_line_];
   command_started_ = true;
   timer_ms_ = 0;
-  if (program.number == kTimer) {
-    timer_ms_ = std::int64_t{program.data} * 10;  // one decimal place of 100 ms
-  } else if (program.number == 620) {
-    const std::int64_t rest = within_turn(axis_.position());
-    axis_.acceleration = axis_.deceleration = std::int64_t{parameter(125)} * 8192;
-    axis_.move_to(axis_.position() - rest, scaled_speed(parameter(124)));
-  } else if (program.number != kJump) {
-    position(program.number, program.data, option(662, parameter(120)), option(663, parameter(121)));
+  if (homes_first_ || line.number == 620) {
+    move_home();
+  } else if (line.number == kTimer) {
+    timer_ms_ = std::int64_t{line.data} * 10;  // one decimal place of 100 ms
+  } else if (line.number != kJump) {
+    position(line.number, line.data, line.option(662, parameter(120)), line.option(663, parameter(121)));
   }
 }
 
@@ -290,20 +306,23 @@ void Esb::tick_program() {
   }
   if (axis_.moving()) return;
   const Program& program = programs_[running_channel_];
-  if (program.number == kJump) {
-    go_to(program.data);
-    return;
-  }
-  if (program.number == 620) {
+  const Line& line = program[running_line_];
+  if (homes_first_ || line.number == 620) {
     homed_ = true;
     at_home_ = true;
   }
-  const auto found = program.options.find(661);
-  const std::int32_t sequence = found == program.options.end() ? 0 : found->second;
-  if (program.number == kTimer || sequence == kExecuteNext) {
-    go_to(running_channel_ + 1);
+  if (homes_first_) {
+    homes_first_ = false;
+    command_started_ = false;
+    return;
+  }
+  const std::int32_t sequence = line.option(661, 0);
+  if (line.number == kJump) {
+    go_to(line.data);
   } else if (sequence == kWaitForRun) {
     waits_for_run_ = true;  // the channel shown is still this one (4.4.9)
+  } else if (line.number == kTimer || sequence == kExecuteNext || running_line_ + 1 < program.size()) {
+    go_on();
   } else {
     work_ = Work::kNone;
   }

@@ -63,13 +63,15 @@ class Esb : public Slave {
     std::int16_t number = 0;
     std::int32_t data = 0;
   };
-  // The program of a channel: one command and its optional codes. Sequence code * goes on with the next channel, &
-  // does so at the next RUN.
-  struct Program {
-    std::int16_t number = 0;  // 0: empty
+  // A line of a channel: a command and its optional codes. The lines of a channel follow each other; behind the last
+  // one sequence code * goes on with the next channel, & does so at the next RUN.
+  struct Line {
+    std::int16_t number = 0;
     std::int32_t data = 0;
     std::map<std::int16_t, std::int32_t> options;
+    std::int32_t option(std::int16_t number_of_it, std::int32_t otherwise) const;
   };
+  using Program = std::vector<Line>;
   struct Result {
     bool success = false;
     std::int16_t number = 0;
@@ -91,6 +93,8 @@ class Esb : public Slave {
   bool start_program(std::uint8_t channel);
   void run_command();
   bool go_to(std::int64_t channel);
+  void go_on();  // with the next line, or the next channel
+  void move_home();
 
   void begin_transaction();
   void finish_transaction();
@@ -112,12 +116,15 @@ class Esb : public Slave {
   bool at_home_ = false;
   Work work_ = Work::kNone;
   std::uint8_t running_channel_ = 0;
+  std::size_t running_line_ = 0;
+  bool homes_first_ = false;  // PH: a home return goes before the program
   bool command_started_ = false;
   bool waits_for_run_ = false;
   std::int64_t timer_ms_ = 0;
   std::array<Program, 64> programs_;
   Session session_ = Session::kNone;
   std::uint8_t session_channel_ = 0;
+  bool edit_begins_ = false;     // its first command replaces what the channel held
   std::vector<Result> listing_;  // what 820 has still to return
   bool acknowledge_ = false;
   bool processing_ = false;

@@ -227,13 +227,18 @@ Esb::Result Esb::process_program(const Input& input) {
                       : input.number == 641 ? input.data >= 3 && input.data <= 1000
                                             : target_in_range(input.number, input.data);
     if (!fits) return failed;
-    program = {input.number, input.data, {}};
+    if (edit_begins_) program.clear();
+    edit_begins_ = false;
+    program.push_back({input.number, input.data, {}});
   } else if (input.number >= 660 && input.number <= 663) {
-    if (!option_allowed(program.number, input.number) || !option_in_range(input.number, input.data)) return failed;
+    if (program.empty() || !option_allowed(program.back().number, input.number) ||
+        !option_in_range(input.number, input.data)) {
+      return failed;
+    }
     if (input.data == 0) {
-      program.options.erase(input.number);
+      program.back().options.erase(input.number);
     } else {
-      program.options[input.number] = input.data;
+      program.back().options[input.number] = input.data;
     }
   } else {
     return failed;
@@ -282,14 +287,15 @@ Esb::Result Esb::write_number(std::int16_t number, std::int32_t data) {
       return start_home() ? done : failed;
     case 500:
       session_ = Session::kEdit;
+      edit_begins_ = true;
       session_channel_ = static_cast<std::uint8_t>(data);
       return done;
     case 501:
       session_ = Session::kRead;
       listing_.clear();
-      if (const Program& program = programs_[static_cast<std::size_t>(data)]; program.number != 0) {
-        listing_.push_back({true, program.number, program.data});
-        for (const auto& [option, value] : program.options) listing_.push_back({true, option, value});
+      for (const Line& line : programs_[static_cast<std::size_t>(data)]) {
+        listing_.push_back({true, line.number, line.data});
+        for (const auto& [option, value] : line.options) listing_.push_back({true, option, value});
       }
       return done;
     case 502:

@@ -130,14 +130,16 @@ void read_number(CanWorld& world, TableReader& step) {
   master.transact(false, step.integer("number", INT16_MIN, INT16_MAX), 0);
 }
 
-// 500, a program command with its optional codes, 502 (5.3.1): each line for a channel of its own, from `channel` on.
+// 500, a program command with its optional codes, 502 (5.3.1): each line for a channel of its own, from `channel` on,
+// or all for one.
 void edit_program(CanWorld& world, TableReader& step) {
   Image master = image(world, step);
   std::int64_t channel = step.integer("channel", 0, 63);
   const bool close = step.boolean("close", true);
+  const bool one_channel = step.boolean("one_channel", false);
   const std::vector<const toml::table*> lines = step.tables("lines");
   for (const toml::table* table : lines) {
-    master.transact(true, 500, channel++);
+    if (!one_channel || table == lines.front()) master.transact(true, 500, channel++);
     TableReader line(*table, world.job.problems);
     const std::int64_t command = line.integer("command", INT16_MIN, INT16_MAX);
     master.transact(true, command, line.integer("data", 0, INT32_MIN, INT32_MAX));
@@ -150,7 +152,8 @@ void edit_program(CanWorld& world, TableReader& step) {
         master.transact(true, option.number, *value);
     }
     line.done();
-    if (close || table != lines.back()) master.transact(true, 502, 0);
+    const bool last = table == lines.back();
+    if (last ? close : !one_channel) master.transact(true, 502, 0);
   }
 }
 
