@@ -30,7 +30,11 @@ class DegradedScenarios : public ::testing::TestWithParam<std::filesystem::path>
     const std::set<Key> known = keys_of(check(whole_, settings_));
     for (const CheckedFinding& found : check(degraded, settings_)) {
       const bool of_capture = found.rule.starts_with("CP");
-      EXPECT_TRUE(of_capture || known.contains({found.rule, found.finding.node.mac_id})) << "new: " << found.text;
+      // The catalogue wants a note where the capture does not show the program that runs.
+      const bool unknown_program =
+          found.finding.severity == Severity::kNote && (found.rule == "NK302" || found.rule == "NK309");
+      EXPECT_TRUE(of_capture || unknown_program || known.contains({found.rule, found.finding.node.mac_id}))
+          << "new: " << found.text;
     }
   }
 
