@@ -143,6 +143,7 @@ void A5nDrive::process(Bytes command) {
   const bool usable = header_error_ == 0 && !sub_chk_error_ && cyclic != kNoOperation;
   if (usable) {
     if (since_cyclic_ns_ < 0) since_cyclic_ns_ = 0;
+    count_update(static_cast<int>(get(command::kUpdateCounter, command)));
     header_error_ = check_mode(cyclic);
     if (header_error_ != 0) {
       raise_alarm({91, 1});
@@ -164,6 +165,19 @@ void A5nDrive::process(Bytes command) {
   if (config_.wide) run_channel(sub_);
   update_servo(servo_on_command_);
   move(usable && header_error_ == 0 ? command : Bytes());
+}
+
+// 8-1-8: updates that did not come, or not one after the other, are counted; the manual names no way back.
+void A5nDrive::count_update(int counter) {
+  const int limit = parameter(7, 38);
+  const int moved = (counter - update_counter_) & 3;
+  const int longest = step_ns_ > timing_.cycle_ns ? 1 : timing_.ratio;
+  still_ = moved == 0 ? still_ + 1 : 0;
+  const bool missed = update_counter_ >= 0 && (still_ == longest || moved > 1);
+  if (still_ == longest) still_ = 0;
+  update_counter_ = counter;
+  if (!missed || limit <= 1 || since_cyclic_ns_ < config_.ready_ns) return;
+  if (++missed_updates_ > limit) raise_alarm({86, 2});
 }
 
 void A5nDrive::update_servo(bool servo_on) {

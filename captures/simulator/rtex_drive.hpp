@@ -124,6 +124,7 @@ class A5nDrive {
   int check_header(Bytes command);
   int check_mode(int cyclic);
   void enter_mode(int cyclic);
+  void count_update(int counter);
   void update_servo(bool servo_on);
   void move(Bytes command);
   void move_profile();
@@ -186,6 +187,9 @@ class A5nDrive {
   int header_error_ = 0;  // 0011h, 0012h, 0021h, 002Eh
   bool sub_chk_error_ = false;
   int header_errors_running_ = 0;
+  int update_counter_ = -1;  // of the command processed last
+  int still_ = 0;            // processings since it moved
+  int missed_updates_ = 0;   // Err86.2, where Pr7.38 is above 1
   int mode_ = kNoOperation;  // cyclic code in force
   DurationNs since_mode_change_ns_ = 0;
   DurationNs since_cyclic_ns_ = -1;  // since the first cyclic command, -1 before it

@@ -81,14 +81,13 @@ bool reads(const CommandPart& part) {
 // A data word that must be 0 where its feedforward parameter is 0. Where 0 is only assumed, the drive's answer decides.
 Outcome judge_word(Scene& scene, std::uint32_t value, const Known& forward, ByteRange where) {
   if (!forward || forward.value != 0) return Outcome::kSilent;
+  if (forward.certain() && scene.channel != nullptr) return Outcome::kSilent;  // judged at the command
   if (value == 0) return forward.certain() ? Outcome::kPassed : Outcome::kSilent;
   if (!forward.certain()) {
     if (scene.channel == nullptr || !scene.answer().error || !scene.node->comparable) return Outcome::kSilent;
     const std::uint16_t code = scene.answer().error_code;
     const bool answered = code == 0x0034 || (code == 0x0032 && !scene.is_sub() && scene.part().code == 0);
     if (!answered) return Outcome::kSilent;
-  } else if (scene.channel != nullptr) {
-    return Outcome::kSilent;  // judged at the command
   }
   return scene.raise({.arguments = {value},
                       .where = scene.channel == nullptr ? where
@@ -169,7 +168,9 @@ Outcome busy_long(Scene& scene) {
 Outcome result_not_read(Scene& scene) {
   const ChannelState& channel = *scene.channel;
   const Hold& hold = channel.hold;
-  if (channel.step != HandshakeStep::kLeft && channel.step != HandshakeStep::kChained) return Outcome::kSilent;
+  const bool left = channel.step == HandshakeStep::kLeft || channel.step == HandshakeStep::kLeftBusy ||
+                    channel.step == HandshakeStep::kChained;
+  if (!left) return Outcome::kSilent;
   if (!reads(hold.part) || !hold.seen_start || !hold.every_response || hold.not_started || hold.refused ||
       scene.node->mode_changed) {
     return Outcome::kSilent;

@@ -76,9 +76,9 @@ TEST(MoreRules, ArgumentsOutOfRange) {
     std::uint8_t code;
     std::uint16_t type, index;
     bool wrong;
-  } rows[] = {{5, 0x000, 14, false}, {5, 0x000, 15, true}, {5, 0x001, 1, true},      {5, 0x002, 0x0156, false},
-              {6, 0x030, 0x0800, false}, {6, 0x030, 0x0801, true}, {6, 0x081, 1, true}, {10, 0x01, 2, false},
-              {10, 0x05, 1, true},   {10, 0x61, 9, false}, {4, 0x51, 0x0904, true}, {4, 0x51, 0x0943, false},
+  } rows[] = {{5, 0x000, 14, false},     {5, 0x000, 15, true},     {5, 0x001, 1, true},     {5, 0x002, 0x0156, false},
+              {6, 0x030, 0x0800, false}, {6, 0x030, 0x0801, true}, {6, 0x081, 1, true},     {10, 0x01, 2, false},
+              {10, 0x05, 1, true},       {10, 0x61, 9, false},     {4, 0x51, 0x0904, true}, {4, 0x51, 0x0943, false},
               {4, 0x52, 0x0943, true}};
   for (const auto& row : rows) {
     Bench bench;
@@ -142,6 +142,30 @@ TEST(MoreRules, ResultNotRead) {
   };
   exchange(bench, 10, 0x05);
   EXPECT_EQ(bench.rules(), "RX313");
+}
+
+// Left while Busy: the answer never came, either.
+TEST(MoreRules, ResultNotReadWhileBusy) {
+  Bench bench;
+  bench.cycles(5);
+  bench.at(0).busy = true;
+  exchange(bench, 6, 0x010);
+  EXPECT_EQ(bench.rules(), "RX304 RX313");
+}
+
+// 7-7-4: one finding as long as the word is not 0; the responses between do not end it.
+TEST(MoreRules, SubDataNotZeroIsOneEpisode) {
+  Settings settings;
+  settings.rtex.axes.push_back({.mac_id = 0, .parameters = {{0x0724, 0}, {0x0725, 0}}});
+  Bench bench(1, settings);
+  bench.at(0).wide = true;
+  bench.sub(0, 0, 0);
+  bench.cycles(5);
+  bench.command(0)[24] = 7;
+  bench.cycles(5);
+  ASSERT_EQ(bench.rules(), "RX314");
+  EXPECT_EQ(bench.found("RX314").size(), 1U);
+  EXPECT_EQ(bench.found("RX314").at(0).count, 5U);
 }
 
 TEST(MoreRules, EchoArguments) {
@@ -321,6 +345,21 @@ TEST(MoreRules, ResetOfAllDrives) {
       EXPECT_EQ(bench.found("RX601").at(0).arguments[0], 2);
     }
   }
+}
+
+// The echo of the second drive was in records that the capture lost.
+TEST(MoreRules, ResetWithItsEchoLost) {
+  Bench bench(2);
+  bench.cycles(5);
+  bench.non_cyclic(0, 1, 0x001);
+  bench.cycles(3);
+  bench.non_cyclic(1, 1, 0x001);
+  bench.cycles(1);
+  bench.drop_cycles(3);
+  bench.normal(0);
+  bench.normal(1);
+  bench.cycles(1);
+  EXPECT_EQ(bench.rules(), "CP103");
 }
 
 TEST(MoreRules, ResetAndValidationWithServoOn) {
