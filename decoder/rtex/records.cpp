@@ -15,7 +15,7 @@ constexpr std::uint32_t kHalf = 0x80000000U;  // a sequence difference from here
 DurationNs nearest_cycle(DurationNs measured_ns) {
   for (const DurationNs cycle : kCycles) {
     const DurationNs off = measured_ns - cycle;
-    if (off * 50 <= cycle && -off * 50 <= cycle) return cycle;
+    if (off <= cycle / 50 && off >= -(cycle / 50)) return cycle;
   }
   return 0;
 }
@@ -230,7 +230,7 @@ void Engine::take_command_record(const Context& context, const RecordHeader& hea
 
 void Engine::judge_interval(const Context& context, DurationNs interval_ns) {
   const DurationNs cycle = ring_.cycle_ns.value;
-  if (!ring_.cycle_ns || ring_.time_resolution_ns > cycle / 4) return;
+  if (!ring_.cycle_ns || ring_.time_resolution_ns > cycle / 4 || interval_ns < 0) return;  // backwards: CP102
   const Limits& limits = ring_.settings.limits;
   Scene scene = ring_scene(context);
   const Basis basis = ring_.cycle_ns.basis;
@@ -256,7 +256,7 @@ void Engine::judge_interval(const Context& context, DurationNs interval_ns) {
   ring_.findings.calm(ring_.owner, rule("RX112"));
   ring_.findings.checked(rule("RX111"));
   const DurationNs off = interval_ns > cycle ? interval_ns - cycle : cycle - interval_ns;
-  if (off * 100 > limits.jitter_percent * cycle) {
+  if (off > limits.jitter_percent * cycle / 100) {
     report(scene, rule("RX111"), ring_.owner,
            {.arguments = {interval_ns, cycle},
             .related = {ring_.last_command.frame, 0},

@@ -2,23 +2,8 @@
 // In the steady state no frame allocates: polls, their fragments, explicit requests and responses.
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
+#include "tests/support/counting_new.hpp"
 #include "tests/unit/devicenet/bench.hpp"
-
-namespace {
-std::atomic<std::uint64_t> allocations{0};
-}  // namespace
-
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace servotrace::devicenet {
 namespace {
@@ -45,7 +30,7 @@ TEST(SteadyState, NoAllocation) {
   std::uint64_t number = 0;
   std::uint64_t before = 0;
   for (int cycle = 0; cycle < 200; ++cycle) {
-    if (cycle == 100) before = allocations;
+    if (cycle == 100) before = servotrace::test::allocation_count;
     for (const auto& record : records) {
       ++number;
       pipeline.push({.number = number,
@@ -56,7 +41,7 @@ TEST(SteadyState, NoAllocation) {
                     &dissection);
     }
   }
-  EXPECT_EQ(allocations - before, 0U);
+  EXPECT_EQ(servotrace::test::allocation_count - before, 0U);
 }
 
 }  // namespace
