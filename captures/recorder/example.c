@@ -59,7 +59,7 @@ static void run_cycle(struct ring* ring, uint32_t cycle) {
   for (axis = 0; axis < AXES; ++axis) {
     uint8_t* const command = ring->transmission + 16u * axis;
     uint8_t* const response = ring->reception + 16u * axis;
-    command[0] = (uint8_t)(counter << 5 | (axis + 1u));
+    command[0] = (uint8_t)((unsigned)counter << 5 | (axis + 1u));
     command[1] = code;
     response[0] = (uint8_t)(0x80u | (unsigned)ring->counter_before << 5 | (axis + 1u));
     response[1] = ring->code_before[1];
