@@ -97,7 +97,10 @@ void Engine::step_response(Scene& scene, ChannelState& channel) {
 
   // Busy, as the catalogue defines it
   if (answer.answers()) {
-    if (!answer.busy) {
+    // Leaving a search ends it, though the echo, which lags, still shows it busy for a moment (7-2-1).
+    const bool left_search = channel.state == Handshake::kStandard && answer.echo == channel.hold.part.code &&
+                             is_homing_search(channel.hold.part);
+    if (!answer.busy || left_search) {
       process.busy = false;
     } else if (!process.busy || process.code != answer.echo || process.type_code != answer.type_code) {
       process = {true, answer.echo, answer.type_code, scene.now};
