@@ -1,116 +1,130 @@
 // SPDX-License-Identifier: MIT
-#include "replay/report/analysis.hpp"
-
+// The verdict: what failed first, when, with what, and what the evidence says preceded it.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
 
 #include "decoder/findings/catalogue.hpp"
 #include "decoder/render/message.hpp"
 #include "decoder/render/node.hpp"
 #include "decoder/render/value.hpp"
-#include "replay/report/symptoms.hpp"
+#include "replay/report/analysis.hpp"
 
 namespace servotrace::report {
 namespace {
 
-int fault_weight(RuleId id) {
-  for (const FaultRule& row : kFaultRules) {
-    if (rule_row(id).id == row.rule) return row.weight;
+std::string plural(std::uint64_t count, std::string_view word) {
+  return fmt::format("{} {}{}", count, word, count == 1 ? "" : "s");
+}
+
+class Judge {
+ public:
+  Judge(Model& model, const Settings& settings, const replay::BusNames& buses)
+      : model_(model), settings_(settings), buses_(buses), verdict_(model.verdict) {
+    for (const Finding& finding : model.findings) ++by_severity_[static_cast<std::size_t>(finding.severity)];
   }
-  return 0;
-}
 
-bool same_node(const NodeRef& left, const NodeRef& right) {
-  return left.bus == right.bus && left.mac_id == right.mac_id;
-}
-
-// A cause may lie at the node itself or at its bus as a whole.
-bool can_concern(const Finding& cause, const Finding& fault) {
-  if (same_node(cause.node, fault.node)) return true;
-  return cause.node.bus == fault.node.bus && (cause.node.mac_id == kNoMacId || fault.node.mac_id == kNoMacId);
-}
-
-bool lies_before(const Finding& cause, const Finding& fault) {
-  return cause.frame <= fault.frame && elapsed_ns(cause.last_time_ns, fault.time_ns) <= kCauseWindowNs;
-}
-
-// Violations that precede the fault where it happened, in the order of the file.
-std::vector<std::size_t> preceding(const Model& model, std::size_t fault) {
-  std::vector<std::size_t> result;
-  const Finding& reported = model.findings[fault];
-  for (std::size_t i = 0; i < model.findings.size(); ++i) {
-    const Finding& finding = model.findings[i];
-    if (i == fault || !can_concern(finding, reported) || !lies_before(finding, reported)) continue;
-    if (rule_row(finding.rule).actor == Actor::kCapture || finding.severity == Severity::kNote) continue;
-    result.push_back(i);
-  }
-  constexpr std::size_t kMost = 40;  // the nearest ones
-  if (result.size() > kMost) result.erase(result.begin(), result.end() - kMost);
-  return result;
-}
-
-void rank_causes(Model& model, Fault& fault) {
-  const Finding& reported = model.findings[fault.finding];
-  fault.causes.clear();
-  const std::int64_t argument = fault.code_frame != 0 ? fault.code : reported.arguments[0];
-  const std::string_view id = rule_row(reported.rule).id;
-  std::set<std::size_t> used;
-  const auto add = [&](Candidate candidate) {
-    if (candidate.finding && !used.insert(*candidate.finding).second) return;
-    fault.causes.push_back(std::move(candidate));
-  };
-  // The session itself named a cause: the drive's own answer to that act.
-  if (reported.cause.frame != 0) {
-    for (const std::size_t index : fault.preceding) {
-      const Finding& finding = model.findings[index];
-      if (finding.rule != reported.cause.rule || finding.frame > reported.frame ||
-          finding.last_frame < reported.cause.frame)
-        continue;
-      add({.text = std::string(rule_row(finding.rule).title),
-           .section = std::string(rule_row(finding.rule).section),
-           .supported = true,
-           .finding = index});
+  void run() {
+    if (model_.capture.checked_frames == 0) {
+      verdict_.kind = VerdictKind::kNothingChecked;
+      verdict_.headline = "Nothing was checked: the capture holds no frame of a known bus.";
+      say("RTEX is recorded as servotrace RTEX records; CAN counts as DeviceNet where the traffic shows it, or with "
+          "--devicenet.");
+    } else if (!model_.faults.empty()) {
+      failed();
+    } else if (by_severity_[2] + by_severity_[1] != 0) {
+      violated();
+    } else {
+      verdict_.kind = VerdictKind::kClean;
+      verdict_.headline = "Nothing failed, and no rule was broken in this capture.";
+      if (by_severity_[0] != 0)
+        say(fmt::format("{} listed below.", plural(by_severity_[0], "note") + (by_severity_[0] == 1 ? " is" : " are")));
     }
   }
-  for (const Symptom& symptom : kSymptoms) {
-    if (symptom.rule != id || symptom.cause.empty()) continue;
-    if (symptom.argument != kAny && symptom.argument != argument) continue;
-    for (auto index = fault.preceding.rbegin(); index != fault.preceding.rend(); ++index) {
-      if (rule_row(model.findings[*index].rule).id != symptom.cause) continue;
-      add({.text = std::string(symptom.text),
-           .section = std::string(symptom.section),
-           .supported = true,
-           .finding = *index});
-      break;
-    }
-  }
-  // Nothing explains it by the table: what the master did wrong just before is still worth a look.
-  if (fault.causes.empty()) {
-    for (auto index = fault.preceding.rbegin(); index != fault.preceding.rend() && fault.causes.size() < 3; ++index) {
-      const Rule& row = rule_row(model.findings[*index].rule);
-      if (row.actor == Actor::kDrive) continue;
-      add({.text = fmt::format("{}; no table links it to this fault, it only came before it", row.title),
-           .section = std::string(row.section),
-           .supported = false,
-           .finding = *index});
-    }
-  }
-  for (const Symptom& symptom : kSymptoms) {
-    if (symptom.rule != id || !symptom.cause.empty()) continue;
-    if (symptom.argument != kAny && symptom.argument != argument) continue;
-    add({.text = std::string(symptom.text),
-         .section = std::string(symptom.section),
-         .supported = false,
-         .finding = std::nullopt});
-  }
-}
 
-std::string capitalised(std::string text) {
-  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
-  return text;
-}
+ private:
+  void say(std::string sentence) { verdict_.sentences.push_back(std::move(sentence)); }
+  std::string name(const Finding& finding) const { return who(finding, settings_, buses_); }
+
+  void failed() {
+    verdict_.kind = VerdictKind::kFault;
+    const Fault& first = model_.faults.front();
+    const Finding& finding = model_.findings[first.finding];
+    verdict_.first = first.finding;
+    verdict_.headline = fmt::format("{} failed first, {} after the start (frame {}): {}.", capitalised(name(finding)),
+                                    at_time(model_, finding.time_ns), finding.frame, fault_text(model_, first));
+    if (first.code_frame != 0)
+      say(fmt::format("The code was read out of the drive afterwards, in frame {}.", first.code_frame));
+    const auto cause =
+        std::find_if(first.causes.begin(), first.causes.end(), [](const Candidate& entry) { return entry.supported; });
+    if (cause != first.causes.end()) {
+      verdict_.cause = *cause;
+      say(fmt::format("The likely cause: {} ({}).", cause->text, cause->section));
+      if (const std::string text = evidence(*cause, finding); !text.empty()) say(text);
+    } else {
+      say("No violation the symptom table knows preceded it: the capture does not show the cause.");
+      for (const Candidate& entry : first.causes) possible(entry, finding);
+    }
+    for (const std::size_t follower : first.followers) {
+      const Fault& fault = model_.faults[follower];
+      const Finding& later = model_.findings[fault.finding];
+      say(fmt::format("It led to: {}, {} later (frame {}): {}.", name(later),
+                      duration_text(elapsed_ns(finding.time_ns, later.time_ns)), later.frame,
+                      fault_text(model_, fault)));
+    }
+    if (const std::size_t others = model_.faults.size() - 1 - first.followers.size() + model_.more_faults; others != 0)
+      say(fmt::format("{} described below.",
+                      others == 1 ? "1 more fault is" : fmt::format("{} more faults are", others)));
+  }
+
+  // The sentence that proves a cause; empty where the fault proves it itself.
+  std::string evidence(const Candidate& cause, const Finding& fault) const {
+    if (cause.access) {
+      const Access& access = model_.accesses[*cause.access];
+      return fmt::format("Evidence: {} was written in frame {}, {} before the fault: {} became {}.", access.what,
+                         access.frame, duration_text(elapsed_ns(access.time_ns, fault.time_ns)), access.before,
+                         access.value);
+    }
+    if (!cause.finding) return {};
+    const Finding& shown = model_.findings[*cause.finding];
+    if (shown.frame == fault.frame && shown.rule == fault.rule) return {};
+    return fmt::format("Evidence: {} at {}, frame {}, {} before the fault: {}{}.", rule_row(shown.rule).id, name(shown),
+                       shown.frame, duration_text(elapsed_ns(shown.time_ns, fault.time_ns)), message(shown),
+                       shown.count > 1 ? fmt::format(" ({} times up to frame {})", shown.count, shown.last_frame) : "");
+  }
+
+  void possible(const Candidate& cause, const Finding& fault) {
+    const std::string text = evidence(cause, fault);
+    say(fmt::format("Possible, but not shown by the capture: {} ({}).{}{}", cause.text, cause.section,
+                    text.empty() ? "" : " ", text));
+  }
+
+  void violated() {
+    verdict_.kind = VerdictKind::kViolations;
+    const Severity worst = by_severity_[2] != 0 ? Severity::kError : Severity::kWarning;
+    const auto first = std::find_if(model_.findings.begin(), model_.findings.end(),
+                                    [worst](const Finding& finding) { return finding.severity == worst; });
+    const Rule& row = rule_row(first->rule);
+    verdict_.first = static_cast<std::size_t>(first - model_.findings.begin());
+    verdict_.headline =
+        fmt::format("No drive reported a fault. The first {}: {}, {} after the start (frame {}): {}.", name_of(worst),
+                    name(*first), at_time(model_, first->time_ns), first->frame, message(*first));
+    verdict_.cause = Candidate{.text = std::string(row.title),
+                               .section = std::string(row.section),
+                               .supported = true,
+                               .finding = verdict_.first,
+                               .access = {}};
+    say(fmt::format("{}: {} ({}). {}", row.id, row.title, row.section, row.why));
+    say(fmt::format("The capture holds {} and {} in all.", plural(by_severity_[2], "error"),
+                    plural(by_severity_[1], "warning")));
+  }
+
+  Model& model_;
+  const Settings& settings_;
+  const replay::BusNames& buses_;
+  Verdict& verdict_;
+  std::array<std::uint64_t, 3> by_severity_{};
+};
 
 void list_limits(Model& model, const replay::BusNames& buses) {
   std::vector<std::string>& list = model.cannot_show;
@@ -166,6 +180,11 @@ void list_limits(Model& model, const replay::BusNames& buses) {
 
 }  // namespace
 
+std::string capitalised(std::string text) {
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
+  return text;
+}
+
 std::string who(const Finding& finding, const Settings& settings, const replay::BusNames& buses) {
   const std::string_view bus = buses.name(finding.node.bus);
   const std::string node = node_text(finding.node, configured_name(settings, finding.node));
@@ -178,112 +197,20 @@ std::string at_time(const Model& model, TimeNs time_ns) {
   return fmt::format("{:.6f} s", static_cast<double>(elapsed_ns(model.capture.first_ns, time_ns)) / 1e9);
 }
 
-bool is_alarm_without_code(const Finding& finding) {
-  const std::string_view id = rule_row(finding.rule).id;
-  return (id == "RX902" || id == "YS901") && finding.arguments[0] <= 0;
-}
-
-void rank_all_causes(Model& model) {
-  for (Fault& fault : model.faults) rank_causes(model, fault);
-}
-
-void find_faults(Model& model, const Settings&, const replay::BusNames&) {
-  std::vector<std::size_t> found;
-  for (std::size_t i = 0; i < model.findings.size(); ++i) {
-    // A state from before the capture is a note: it is told, but nothing in this capture failed with it.
-    if (fault_weight(model.findings[i].rule) == 0 || model.findings[i].severity == Severity::kNote) continue;
-    found.push_back(i);
-  }
-  // Stops and losses before refusals, each in the order of time; the first is what failed first.
-  std::stable_sort(found.begin(), found.end(), [&model](std::size_t left, std::size_t right) {
-    const int left_weight = fault_weight(model.findings[left].rule);
-    const int right_weight = fault_weight(model.findings[right].rule);
-    if (left_weight != right_weight) return left_weight > right_weight;
-    return model.findings[left].frame < model.findings[right].frame;
-  });
-  if (found.size() > kMaxFaults) {
-    model.more_faults = found.size() - kMaxFaults;
-    found.resize(kMaxFaults);
-  }
-  for (const std::size_t index : found) {
-    Fault fault;
-    fault.finding = index;
-    const Finding& finding = model.findings[index];
-    fault.preceding = preceding(model, index);
-    rank_causes(model, fault);
-    // The close-up: from the earliest supported cause, but no less than a fifth of a second and no more than five.
-    DurationNs before = kSecondNs / 5;
-    for (const Candidate& cause : fault.causes) {
-      if (!cause.finding) continue;
-      before = std::max(before, elapsed_ns(model.findings[*cause.finding].time_ns, finding.time_ns) * 5 / 4);
-    }
-    before = std::min(before, 5 * kSecondNs);
-    fault.window_begin_ns = finding.time_ns - before;
-    fault.window_end_ns = finding.time_ns + before / 3;
-    model.faults.push_back(std::move(fault));
-  }
+std::string fault_text(const Model& model, const Fault& fault) {
+  const Finding& finding = model.findings[fault.finding];
+  const bool named = !fault.advice.empty() && (fault.advice.size() == 1 || fault.advice.front().likeliest);
+  const bool is_alarm = rule_row(finding.rule).id == "YS901" || rule_row(finding.rule).id == "RX902";
+  if (!is_alarm || (fault.code_frame == 0 && !named)) return message(finding);
+  // The main number stands for several alarms; the evidence may point at one.
+  if (named && fault.advice.size() > 1)
+    return fmt::format("alarm {}, by the evidence {}", fault.code_frame != 0 ? fault.code : finding.arguments[0],
+                       fault.advice.front().name);
+  return named ? fmt::format("alarm {}", fault.advice.front().name) : fmt::format("alarm {}", fault.code_text);
 }
 
 void judge(Model& model, const Settings& settings, const replay::BusNames& buses) {
-  Verdict& verdict = model.verdict;
-  std::array<std::uint64_t, 3> by_severity{};
-  for (const Finding& finding : model.findings) ++by_severity[static_cast<std::size_t>(finding.severity)];
-  const std::uint64_t errors = by_severity[2];
-  const std::uint64_t warnings = by_severity[1];
-  if (model.capture.checked_frames == 0) {
-    verdict.kind = VerdictKind::kNothingChecked;
-    verdict.headline = "Nothing was checked: the capture holds no frame of a known bus.";
-    verdict.sentences.push_back(
-        "RTEX is recorded as servotrace RTEX records; CAN counts as DeviceNet where the traffic shows it, or with "
-        "--devicenet.");
-  } else if (!model.faults.empty()) {
-    verdict.kind = VerdictKind::kFault;
-    const Fault& first = model.faults.front();
-    const Finding& finding = model.findings[first.finding];
-    const std::string name = who(finding, settings, buses);
-    verdict.headline = fmt::format("{} failed first, {} after the start (frame {}): {}.", capitalised(name),
-                                   at_time(model, finding.time_ns), finding.frame, message(finding));
-    if (first.code_frame != 0) {
-      verdict.sentences.push_back(fmt::format("The drive was asked afterwards and answered alarm {} (frame {}).",
-                                              first.code_text, first.code_frame));
-    }
-    const auto supported =
-        std::find_if(first.causes.begin(), first.causes.end(), [](const Candidate& cause) { return cause.supported; });
-    if (supported != first.causes.end() && supported->finding) {
-      const Finding& cause = model.findings[*supported->finding];
-      verdict.sentences.push_back(
-          fmt::format("The likely cause: {} ({}). Evidence: {} at {}, frame {}, {} before the fault: {}.",
-                      supported->text, supported->section, rule_row(cause.rule).id, who(cause, settings, buses),
-                      cause.frame, duration_text(elapsed_ns(cause.time_ns, finding.time_ns)), message(cause)));
-    } else {
-      verdict.sentences.push_back(
-          "Nothing this program checks was wrong on the bus before it, so the capture does not show the cause.");
-      for (const Candidate& cause : first.causes) {
-        if (cause.supported || cause.finding) continue;
-        verdict.sentences.push_back(
-            fmt::format("Possible, but not shown by the capture: {} ({}).", cause.text, cause.section));
-      }
-    }
-    if (model.faults.size() > 1 || model.more_faults != 0) {
-      verdict.sentences.push_back(
-          fmt::format("{} more faults and refusals are described below.", model.faults.size() - 1 + model.more_faults));
-    }
-  } else if (errors + warnings != 0) {
-    verdict.kind = VerdictKind::kViolations;
-    const auto first = std::find_if(model.findings.begin(), model.findings.end(), [errors](const Finding& finding) {
-      return finding.severity == (errors != 0 ? Severity::kError : Severity::kWarning);
-    });
-    verdict.headline =
-        fmt::format("No drive reported a fault, but the capture holds {} errors and {} warnings.", errors, warnings);
-    verdict.sentences.push_back(fmt::format("The first {}: {} at {}, {} after the start (frame {}): {}.",
-                                            name_of(first->severity), rule_row(first->rule).id,
-                                            who(*first, settings, buses), at_time(model, first->time_ns), first->frame,
-                                            message(*first)));
-  } else {
-    verdict.kind = VerdictKind::kClean;
-    verdict.headline = "Nothing failed, and no rule was broken in this capture.";
-    if (by_severity[0] != 0) verdict.sentences.push_back(fmt::format("{} notes are listed below.", by_severity[0]));
-  }
+  Judge(model, settings, buses).run();
   list_limits(model, buses);
 }
 

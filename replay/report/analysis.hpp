@@ -21,7 +21,13 @@ bool is_alarm_without_code(const Finding& finding);
 // Ranks the causes of every fault anew, with the codes read after it.
 void rank_all_causes(Model& model);
 // Fills faults (with windows and causes) from the findings; model.findings must be sorted by frame.
-void find_faults(Model& model, const Settings& settings, const replay::BusNames& buses);
+void find_faults(Model& model);
+// What the manuals' tables say of the code of a fault. `likely_sub`: of an RTEX alarm whose sub number was not read,
+// the one the evidence points at; below 0: none.
+std::vector<Advice> advice_for(const Finding& finding, std::int64_t code, std::int64_t likely_sub);
+// What failed, with the code read afterwards: "alarm 24.0 position deviation excess". No full stop.
+std::string fault_text(const Model& model, const Fault& fault);
+std::string capitalised(std::string text);
 // Fills the verdict and what the capture cannot show; faults must be found.
 void judge(Model& model, const Settings& settings, const replay::BusNames& buses);
 

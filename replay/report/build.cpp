@@ -47,7 +47,7 @@ Result<Built> build_model(const replay::CaptureInput& input, const Settings& set
     model.rules.push_back({static_cast<RuleId>(i), result.checked[i], result.total[i]});
   }
   model.summary = std::move(result.summary);
-  find_faults(model, settings, built.buses);
+  find_faults(model);
 
   std::vector<Watch> watches;
   for (const Fault& fault : model.faults) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "decoder/core/slot.hpp"
+#include "decoder/devicenet/derived.hpp"
 #include "decoder/render/sentence.hpp"
 #include "decoder/render/value.hpp"
 
@@ -205,32 +206,78 @@ void Collector::scale(Cycle& cycle) {
   histogram.counts.assign(kHistogramBins, 0);
 }
 
-void Collector::add_cycle(const RawFrame& frame, const Dissection& dissection) {
-  if (dissection.protocol != Protocol::kRtex || dissection.direction != Direction::kCommand || !frame.has_time) return;
-  auto found =
-      std::find_if(cycles_.begin(), cycles_.end(), [&](const Cycle& cycle) { return cycle.bus == dissection.bus; });
-  if (found == cycles_.end()) {
-    if (cycles_.size() >= 64) return;
-    cycles_.emplace_back();
-    found = cycles_.end() - 1;
-    found->bus = dissection.bus;
-    found->histogram.bus = dissection.bus;
-    found->histogram.title = "Time between command records";
+Collector::Cycle* Collector::cycle_of(const BusRef& bus, std::string_view title) {
+  for (Cycle& cycle : cycles_) {
+    if (cycle.bus == bus && cycle.title == title) return &cycle;
   }
-  Cycle& cycle = *found;
-  const DurationNs interval = elapsed_ns(cycle.last_ns, frame.time_ns);
-  const bool usable = cycle.has_last && interval >= 0;
-  cycle.last_ns = frame.time_ns;
-  cycle.has_last = true;
-  if (!usable) return;
-  if (cycle.histogram.counts.empty()) {
-    cycle.first.push_back(interval);
-    if (cycle.first.size() < kScaleSamples) return;
-    scale(cycle);
-    for (const DurationNs value : cycle.first) count(cycle.histogram, value);
+  if (cycles_.size() >= 64) return nullptr;
+  Cycle& cycle = cycles_.emplace_back();
+  cycle.bus = bus;
+  cycle.title = title;
+  cycle.histogram.bus = bus;
+  cycle.histogram.title = std::string(title);
+  return &cycle;
+}
+
+void Collector::add_interval(Cycle& cycle, DurationNs interval) {
+  if (!cycle.histogram.counts.empty()) {
+    count(cycle.histogram, interval);
     return;
   }
-  count(cycle.histogram, interval);
+  cycle.first.push_back(interval);
+  if (cycle.first.size() < kScaleSamples) return;
+  scale(cycle);
+  for (const DurationNs value : cycle.first) count(cycle.histogram, value);
+}
+
+void Collector::add_cycle(const RawFrame& frame, const Dissection& dissection) {
+  if (dissection.protocol != Protocol::kRtex || dissection.direction != Direction::kCommand || !frame.has_time) return;
+  Cycle* const cycle = cycle_of(dissection.bus, "Time between command records");
+  if (cycle == nullptr) return;
+  const DurationNs interval = elapsed_ns(cycle->last_ns, frame.time_ns);
+  const bool usable = cycle->has_last && interval >= 0;
+  cycle->last_ns = frame.time_ns;
+  cycle->has_last = true;
+  if (usable) add_interval(*cycle, interval);
+}
+
+// Poll intervals and response times of DeviceNet: the session measured them.
+void Collector::add_times(const Dissection& dissection) {
+  if (dissection.protocol != Protocol::kDevicenet) return;
+  bool is_poll = false;
+  for (const Derived& derived : dissection.derived) {
+    if (derived.field == &devicenet::kMessageField) is_poll = derived.text.starts_with("Poll");
+  }
+  for (const Derived& derived : dissection.derived) {
+    std::string_view title;
+    if (derived.field == &devicenet::kPollIntervalField) title = "Time between poll commands of a node";
+    if (derived.field == &devicenet::kResponseTimeField)
+      title = is_poll ? "Poll response time" : "Explicit response time";
+    if (title.empty() || derived.value < 0) continue;
+    if (Cycle* const cycle = cycle_of(dissection.bus, title); cycle != nullptr) add_interval(*cycle, derived.value);
+  }
+}
+
+// A base frame of n data bytes takes 47 + 8n bits with the space behind it, without stuff bits (ISO 11898-1). The data
+// of a SocketCAN record begins at byte 8.
+void Collector::add_load(const RawFrame& frame, const Dissection& dissection) {
+  if (dissection.protocol != Protocol::kDevicenet || !frame.has_time || frame.bytes.size() < 8) return;
+  auto found =
+      std::find_if(loads_.begin(), loads_.end(), [&](const Load& load) { return load.load.bus == dissection.bus; });
+  if (found == loads_.end()) {
+    if (loads_.size() >= 64) return;
+    loads_.push_back({{.bus = dissection.bus}, frame.time_ns, 0});
+    found = loads_.end() - 1;
+  }
+  const std::uint64_t bits = 47 + 8 * std::min<std::uint64_t>(frame.bytes.size() - 8, 8);
+  found->load.bits += bits;
+  const DurationNs into = elapsed_ns(found->window_ns, frame.time_ns);
+  if (into < 0 || into >= kLoadWindowNs) {
+    found->window_ns = frame.time_ns;
+    found->window_bits = 0;
+  }
+  found->window_bits += bits;
+  found->load.peak_bits = std::max(found->load.peak_bits, found->window_bits);
 }
 
 void Collector::add(const RawFrame& frame, const Dissection& dissection) {
@@ -259,6 +306,9 @@ void Collector::add(const RawFrame& frame, const Dissection& dissection) {
     }
   }
   add_cycle(frame, dissection);
+  add_times(dissection);
+  add_load(frame, dissection);
+  accesses_.add(frame, dissection);
 }
 
 void Collector::finish(Model& model) {
@@ -272,6 +322,9 @@ void Collector::finish(Model& model) {
     model.faults[i].code_frame = close_ups_[i].code_frame;
     model.faults[i].code_text = std::move(close_ups_[i].code_text);
   }
+  model.accesses = accesses_.take();
+  model.more_accesses = accesses_.dropped();
+  for (const Load& load : loads_) model.loads.push_back(load.load);
   for (Cycle& cycle : cycles_) {
     if (cycle.histogram.counts.empty()) {
       if (cycle.first.empty()) continue;

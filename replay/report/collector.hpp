@@ -13,6 +13,7 @@
 #include "decoder/link/raw_frame.hpp"
 #include "decoder/pipeline/dissection.hpp"
 #include "decoder/pipeline/settings.hpp"
+#include "replay/report/accesses.hpp"
 #include "replay/report/model.hpp"
 
 namespace servotrace::report {
@@ -60,8 +61,14 @@ class Collector {
     std::uint64_t code_frame = 0;
     std::string code_text;
   };
+  struct Load {
+    BusLoad load;
+    TimeNs window_ns = 0;  // where the present window begins
+    std::uint64_t window_bits = 0;
+  };
   struct Cycle {
     BusRef bus;
+    std::string_view title;
     TimeNs last_ns = 0;
     bool has_last = false;
     std::vector<DurationNs> first;  // until the scale is chosen
@@ -73,6 +80,10 @@ class Collector {
                  Bytes bytes);
   void add_snapshots(const RawFrame& frame, const Dissection& dissection);
   void add_cycle(const RawFrame& frame, const Dissection& dissection);
+  void add_times(const Dissection& dissection);
+  void add_load(const RawFrame& frame, const Dissection& dissection);
+  Cycle* cycle_of(const BusRef& bus, std::string_view title);
+  static void add_interval(Cycle& cycle, DurationNs interval);
   void take_messages(CloseUp& close_up);
   static void look_for_code(CloseUp& close_up, const RawFrame& frame, const Dissection& dissection);
   static void scale(Cycle& cycle);
@@ -85,6 +96,8 @@ class Collector {
   std::vector<Signal> signals_;
   std::vector<CloseUp> close_ups_;
   std::vector<Cycle> cycles_;
+  std::vector<Load> loads_;
+  AccessLog accesses_;
   std::map<std::uint64_t, std::string> evidence_;
 };
 

@@ -30,6 +30,8 @@ class Writer {
     for (const Finding& finding : model_.findings) write(finding);
     json_.end_array();
     buses();
+    accesses();
+    histograms();
     tracks();
     signals();
     rules();
@@ -84,9 +86,38 @@ class Writer {
     json_.key("verdict").begin_object();
     json_.member("kind", kKinds[static_cast<std::size_t>(model_.verdict.kind)])
         .member("headline", model_.verdict.headline);
+    if (model_.verdict.first) {
+      const Finding& finding = model_.findings[*model_.verdict.first];
+      json_.key("first").begin_object().member("rule", rule_row(finding.rule).id).member("frame", finding.frame);
+      node("node", finding.node);
+      json_.end_object();
+    }
+    if (model_.verdict.cause) {
+      json_.key("cause");
+      write(*model_.verdict.cause);
+    }
     json_.key("sentences").begin_array();
     for (const std::string& sentence : model_.verdict.sentences) json_.value(sentence);
     json_.end_array().end_object();
+  }
+
+  void write(const Candidate& cause) {
+    json_.begin_object();
+    json_.member("text", cause.text).member("section", cause.section).member("supported", cause.supported);
+    if (cause.finding) {
+      const Finding& shown = model_.findings[*cause.finding];
+      json_.member("rule", rule_row(shown.rule).id).member("frame", shown.frame);
+      node("node", shown.node);
+    }
+    if (cause.access) {
+      const Access& access = model_.accesses[*cause.access];
+      json_.member("parameter", access.what)
+          .member("before", access.before)
+          .member("value", access.value)
+          .member("frame", access.frame);
+      node("node", access.node);
+    }
+    json_.end_object();
   }
 
   void write(const Fault& fault) {
@@ -100,16 +131,19 @@ class Writer {
       json_.key("code").begin_object().member("value", fault.code).member("text", fault.code_text);
       json_.member("frame", fault.code_frame).end_object();
     }
-    json_.key("causes").begin_array();
-    for (const Candidate& cause : fault.causes) {
-      json_.begin_object();
-      json_.member("text", cause.text).member("section", cause.section).member("supported", cause.supported);
-      if (cause.finding) {
-        const Finding& shown = model_.findings[*cause.finding];
-        json_.member("rule", rule_row(shown.rule).id).member("frame", shown.frame);
-      }
-      json_.end_object();
+    json_.key("advice").begin_array();
+    for (const Advice& advice : fault.advice) {
+      json_.begin_object()
+          .member("name", advice.name)
+          .member("causes", advice.causes)
+          .member("remedies", advice.remedies)
+          .member("section", advice.section)
+          .member("likeliest", advice.likeliest)
+          .end_object();
     }
+    json_.end_array();
+    json_.key("causes").begin_array();
+    for (const Candidate& cause : fault.causes) write(cause);
     json_.end_array();
     json_.key("preceding").begin_array();
     for (const std::size_t index : fault.preceding) {
@@ -133,7 +167,47 @@ class Writer {
       }
       json_.end_array().end_object();
     }
+    json_.end_array();
+    json_.key("led_to").begin_array();
+    for (const std::size_t index : fault.followers) json_.value(std::uint64_t{index});
     json_.end_array().end_object();
+  }
+
+  void accesses() {
+    json_.key("accesses").begin_array();
+    for (const Access& access : model_.accesses) {
+      json_.begin_object().member("kind", name_of(access.kind)).member("frame", access.frame);
+      time("time", access.time_ns);
+      node("node", access.node);
+      json_.member("what", access.what).member("value", access.value);
+      if (!access.before.empty()) json_.member("before", access.before);
+      if (access.refused) json_.member("refused", true);
+      json_.end_object();
+    }
+    json_.end_array();
+    json_.member("more_accesses", model_.more_accesses);
+  }
+
+  void histograms() {
+    json_.key("histograms").begin_array();
+    for (const Histogram& histogram : model_.histograms) {
+      json_.begin_object().member("bus", buses_.name(histogram.bus)).member("title", histogram.title);
+      json_.member("first_ns", histogram.first_ns).member("bin_ns", histogram.bin_ns);
+      json_.member("samples", histogram.samples).member("below", histogram.below).member("above", histogram.above);
+      json_.key("counts").begin_array();
+      for (const std::uint64_t count : histogram.counts) json_.value(count);
+      json_.end_array().end_object();
+    }
+    json_.end_array();
+    json_.key("loads").begin_array();
+    for (const BusLoad& load : model_.loads) {
+      json_.begin_object()
+          .member("bus", buses_.name(load.bus))
+          .member("bits", load.bits)
+          .member("peak_bits", load.peak_bits)
+          .end_object();
+    }
+    json_.end_array();
   }
 
   void write(const Finding& finding) {
@@ -142,7 +216,7 @@ class Writer {
     json_.member("rule", row.id)
         .member("slug", row.slug)
         .member("severity", name_of(finding.severity))
-        .member("actor", name_of(row.actor));
+        .member("actor", name_of(finding.actor));
     node("node", finding.node);
     json_.member("frame", finding.frame)
         .member("last_frame", finding.last_frame)

@@ -14,6 +14,7 @@
 #include "decoder/findings/finding.hpp"
 #include "decoder/pipeline/dissection.hpp"
 #include "decoder/pipeline/summary.hpp"
+#include "replay/report/accesses.hpp"
 #include "replay/report/series.hpp"
 
 namespace servotrace::report {
@@ -63,13 +64,25 @@ struct Candidate {
   std::string text;
   std::string section;
   bool supported = false;              // the capture shows the evidence; else only possible
-  std::optional<std::size_t> finding;  // index into Model::findings
+  std::optional<std::size_t> finding;  // the evidence: index into Model::findings, or
+  std::optional<std::size_t> access;   // into Model::accesses
+};
+
+// What the manual's tables say of an alarm or error code, in our words.
+struct Advice {
+  std::string name;  // "86.2 RTEX Update_Counter error"
+  std::string causes;
+  std::string remedies;
+  std::string section;
+  bool likeliest = false;  // of several that share the number seen, the one the evidence points at
 };
 
 struct Fault {
   std::size_t finding = 0;             // index into Model::findings: what was reported
   std::vector<std::size_t> preceding;  // violations before it at the same node or bus, latest last
   std::vector<Candidate> causes;       // ranked, the likeliest first
+  std::vector<Advice> advice;          // what the manual says of the code, the likeliest first
+  std::vector<std::size_t> followers;  // indexes into Model::faults: what this one led to
   std::vector<MessagePair> messages;
   std::vector<Signal> signals;  // around it, at full resolution
   // The alarm's code, where the finding did not know it and the drive was asked for it afterwards; frame 0: it was not.
@@ -101,9 +114,19 @@ enum class VerdictKind : std::uint8_t { kNothingChecked, kClean, kViolations, kF
 
 struct Verdict {
   VerdictKind kind = VerdictKind::kNothingChecked;
+  std::optional<std::size_t> first;    // what failed first, or the gravest violation: index into Model::findings
+  std::optional<Candidate> cause;      // the likeliest cause the capture supports
   std::string headline;                // one sentence
   std::vector<std::string> sentences;  // what the evidence says, what it cannot say
 };
+
+// How loaded a CAN bus was: bits of its frames without stuffing, in windows of kLoadWindowNs.
+struct BusLoad {
+  BusRef bus;
+  std::uint64_t bits = 0;
+  std::uint64_t peak_bits = 0;  // of the fullest window
+};
+inline constexpr DurationNs kLoadWindowNs = 100 * kMillisecondNs;
 
 struct Capture {
   std::string file;
@@ -127,6 +150,9 @@ struct Model {
   std::vector<Fault> faults;  // in the order of time, at most kMaxFaults
   std::uint64_t more_faults = 0;
   std::vector<Histogram> histograms;
+  std::vector<BusLoad> loads;
+  std::vector<Access> accesses;  // in the order of the file
+  std::uint64_t more_accesses = 0;
   std::vector<RuleTotal> rules;
   std::vector<std::string> cannot_show;
   std::map<std::uint64_t, std::string> evidence;  // sentences of the frames findings name

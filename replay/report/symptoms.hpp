@@ -15,33 +15,59 @@ struct Symptom {
   std::string_view cause;     // the rule that explains it where it was found before; empty: nothing on the bus shows it
   std::string_view text;      // the explanation, a sentence without a full stop
   std::string_view section;
+  std::int64_t sub = -1;  // RX902: the sub number this points at, where the main number is shared; -1: none
 };
 
 inline constexpr std::int64_t kAny = -1;
 
+// A parameter that explains a fault where the capture shows it overwritten with another value before.
+struct ParameterSymptom {
+  std::string_view rule;
+  std::int64_t argument = 0;   // as in Symptom
+  std::string_view parameter;  // how its name begins; empty: any
+  std::string_view text;
+  std::string_view section;
+};
+inline constexpr auto kParameterSymptoms = std::to_array<ParameterSymptom>({
+    {"RX902", 24, "Pr0.13 ", "the 1st torque limit was changed: with too little torque the axis cannot follow",
+     "SX-DSV02203 7-2-3-4"},
+    {"RX902", 24, "Pr5.22 ", "the 2nd torque limit was changed: with too little torque the axis cannot follow",
+     "SX-DSV02203 7-2-3-4"},
+    {"RX902", 26, "Pr5.13 ", "the over-speed level was changed", "SX-DSV02203 7-1-1"},
+    {"RX902", 86, "Pr7.38 ", "the limit of missed updates was changed", "SX-DSV02203 8-1-8"},
+    {"RX902", 93, "Pr7.2", "a setting of cycle, updating ratio or operation was changed", "SX-DSV02203 2-5-3"},
+    {"RX902", 93, "Pr7.3", "a feedforward or monitor setting was changed", "SX-DSV02203 7-7-4"},
+    {"RX902", kAny, "", "a parameter was overwritten with another value", "SX-DSV02203 6-7-1"},
+    {"RX901", kAny, "", "a parameter was overwritten with another value", "SX-DSV02203 6-7-1"},
+    {"YS901", kAny, "", "an attribute was overwritten with another value", "SIE-C718-7 4.1"},
+    {"YS905", kAny, "", "an attribute was overwritten with another value", "SIE-C718-7 4.1"},
+    {"NK901", kAny, "", "a parameter was overwritten with another value", "ESB 5.4"},
+});
+
+// A row whose cause is the report itself says that the report is its own evidence: nothing lies before it.
 // Stronger explanations first: the order is the ranking among causes of equal evidence.
 inline constexpr auto kSymptoms = std::to_array<Symptom>({
     // Err86.2: more misses of Update_Counter than Pr7.38. The alarm's main number is shared with Err86.0 and 86.1.
     {"RX902", 86, "RX201", "the master did not update Update_Counter in time, and the drive counts missed updates",
-     "SX-DSV02203 8-1-8"},
+     "SX-DSV02203 8-1-8", 2},
     {"RX902", 86, "RX202", "the master skipped values of Update_Counter, which the drive counts as missed updates",
-     "SX-DSV02203 8-1-8"},
-    {"RX902", 86, "RX203", "the master moved Update_Counter inside an updating cycle", "SX-DSV02203 8-1-8"},
-    {"RX902", 86, "RX206", "the missed updates went above the limit of Pr7.38", "SX-DSV02203 8-1-8"},
-    {"RX902", 86, "RX105", "the master sent an undefined cyclic command, cyclic data error 2", "SX-DSV02203 8-1-7"},
+     "SX-DSV02203 8-1-8", 2},
+    {"RX902", 86, "RX203", "the master moved Update_Counter inside an updating cycle", "SX-DSV02203 8-1-8", 2},
+    {"RX902", 86, "RX206", "the missed updates went above the limit of Pr7.38", "SX-DSV02203 8-1-8", 2},
+    {"RX902", 86, "RX105", "the master sent an undefined cyclic command, cyclic data error 2", "SX-DSV02203 8-1-7", 1},
     {"RX902", 86, "RX102", "the master sent a command block with another MAC-ID, cyclic data error 1",
-     "SX-DSV02203 8-1-7"},
-    {"RX902", 86, "RX103", "the master sent a command block with C/R = 1, cyclic data error 1", "SX-DSV02203 8-1-7"},
-    {"RX902", 86, "RX107", "the master sent Sub_Chk = 0, cyclic data error 1", "SX-DSV02203 8-1-7"},
+     "SX-DSV02203 8-1-7", 0},
+    {"RX902", 86, "RX103", "the master sent a command block with C/R = 1, cyclic data error 1", "SX-DSV02203 8-1-7", 0},
+    {"RX902", 86, "RX107", "the master sent Sub_Chk = 0, cyclic data error 1", "SX-DSV02203 8-1-7", 0},
     {"RX902", 86, "", "the master's cyclic task ran late or stopped: look at its load and at the jitter of the cycle",
      "SX-DSV02203 8-1-8"},
     {"RX902", 83, "RX110", "the drive saw CRC errors cycle after cycle", "SX-DSV02203 8-1-2"},
     {"RX902", 83, "RX101", "the drive saw CRC errors", "SX-DSV02203 8-1-2"},
     {"RX902", 83, "", "cable, connector or noise at this place of the ring, or a drive before it that lost power",
      "SX-DSV02203 8-1-2"},
-    {"RX902", 84, "RX112", "the master left the ring without a cycle for longer than the time-out",
-     "SX-DSV02203 8-1-4"},
-    {"RX902", 84, "RX111", "the master's cycle jittered more than the drive allows", "SX-DSV02203 8-1-6"},
+    {"RX902", 84, "RX112", "the master left the ring without a cycle for longer than the time-out", "SX-DSV02203 8-1-4",
+     0},
+    {"RX902", 84, "RX111", "the master's cycle jittered more than the drive allows", "SX-DSV02203 8-1-6", 5},
     {"RX902", 84, "RX210", "cycle and updating ratio are no legal pair, so that synchronisation cannot begin",
      "SX-DSV02203 8-1-5"},
     {"RX902", 84, "", "the master's cyclic task stopped, or the ring was broken between two drives",
@@ -58,6 +84,19 @@ inline constexpr auto kSymptoms = std::to_array<Symptom>({
     {"RX902", 91, "RX407", "velocity or torque control was commanded in full-closed control", "SX-DSV02203 8-1-10"},
     {"RX902", 91, "RX408", "a control mode was commanded that this cycle does not allow", "SX-DSV02203 8-1-10"},
     {"RX902", 27, "RX604", "the servo was switched on during an attribute C validation", "SX-DSV02203 6-3-2"},
+    {"RX902", 26, "RX702",
+     "the servo was switched on with the command position far from the actual one: the axis jumped",
+     "SX-DSV02203 7-1-1"},
+    {"RX902", 26, "RX703", "the command position moved faster than the motor can", "SX-DSV02203 7-1-4-1"},
+    {"RX902", 27, "RX702",
+     "the servo was switched on with the command position far from the actual one: the axis jumped",
+     "SX-DSV02203 7-1-1"},
+    {"RX902", 27, "RX703", "the command position moved faster than the motor can", "SX-DSV02203 7-1-4-1"},
+    {"RX902", 24, "RX702",
+     "the servo was switched on with the command position far from the actual one: the axis jumped",
+     "SX-DSV02203 7-1-1"},
+    {"RX902", 26, "", "the command asked for more speed than the over-speed level, or the axis overshot",
+     "SX-DSV02203 7-1-1"},
     {"RX902", 24, "", "the axis was blocked or too heavily loaded, or its torque limited", "SX-DSV02203 8-1"},
     {"RX902", 93, "RX210", "communication cycle and updating ratio are no pair the drive knows", "SX-DSV02203 2-5-1"},
     {"RX902", 94, "RX503", "homing was abandoned before it was complete", "SX-DSV02203 7-2-1"},
@@ -67,6 +106,10 @@ inline constexpr auto kSymptoms = std::to_array<Symptom>({
     {"RX909", kAny, "", "main power, a safety input or a dynamic brake took the servo off", "SX-DSV02203 4-3-3"},
     {"RX108", kAny, "RX101", "CRC errors came first: the ring was failing before it was lost", "SX-DSV02203 8-1-2"},
     {"RX108", kAny, "", "a cable between two drives is open, or a drive lost its control power", "SX-DSV02203 8-1-4"},
+    {"RX110", kAny, "RX101", "single CRC errors came first: the connection was failing before it failed altogether",
+     "SX-DSV02203 8-1-2"},
+    {"RX112", kAny, "RX112", "the master left the ring without a cycle: its cyclic task stopped or was delayed",
+     "SX-DSV02203 8-1-4"},
     {"RX110", kAny, "", "cable, connector or noise at this place of the ring", "SX-DSV02203 8-1-2"},
     {"RX901", 0x2E, "RX404", "the control mode was changed during a profile motion", "SX-DSV02203 6-10"},
     {"RX901", 0x2E, "RX402", "the control mode was changed while a non-cyclic command was busy", "SX-DSV02203 6-10"},
@@ -106,6 +149,8 @@ inline constexpr auto kSymptoms = std::to_array<Symptom>({
     {"NK106", kAny, "NK303", "a start was commanded while a stop was held", "ESB 4.3.4"},
     {"DN204", kAny, "DN104", "the bus itself was failing: CAN error frames came first", "DeviceNet link layer"},
     {"DN204", kAny, "DN102", "two nodes had the same MAC ID", "DeviceNet link layer"},
+    {"DN204", kAny, "DN204", "the master let the connection run out: no poll came within four times the packet rate",
+     "DeviceNet link layer"},
     {"DN204", kAny, "", "the scanner stopped polling: it was stopped, lost power, or left the bus",
      "DeviceNet link layer"},
     {"DN205", kAny, "DN104", "the bus itself was failing: CAN error frames came first", "DeviceNet link layer"},
@@ -113,8 +158,10 @@ inline constexpr auto kSymptoms = std::to_array<Symptom>({
     {"DN205", kAny, "DN204", "the connection had timed out at the slave", "DeviceNet link layer"},
     {"DN205", kAny, "", "the node lost its power, left the bus or was reset (a scanner shows 72)",
      "DeviceNet link layer"},
+    {"DN102", kAny, "DN102", "a second device with this MAC ID came on line", "DeviceNet link layer"},
     {"DN102", kAny, "", "two devices carry the same address switches, or a replaced device kept its old address",
      "DeviceNet link layer"},
+    {"DN104", kAny, "DN104", "the bus itself fails: error frames", "DeviceNet link layer"},
     {"DN104", kAny, "", "bus wiring, termination, bit rate or shield; or a node that leaves the bus",
      "DeviceNet link layer"},
 });
