@@ -4,8 +4,10 @@
 #include <array>
 #include <cctype>
 #include <deque>
+#include <map>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "decoder/pipeline/registry.hpp"
@@ -14,7 +16,8 @@
 namespace servotrace::plugin {
 namespace {
 
-constexpr std::size_t kAxes = 32;  // MAC IDs of a ring (SX-DSV02203 4-2-2)
+constexpr std::size_t kAxes = 32;   // MAC IDs of a ring (SX-DSV02203 4-2-2)
+constexpr std::size_t kNodes = 64;  // MAC IDs of a DeviceNet bus
 
 // Wireshark keeps the pointers it is given, so everything here lives until the program ends.
 struct Texts {
@@ -36,12 +39,13 @@ struct ProtocolRow {
   LinkFields links;
 };
 
-// The fields of one process value, an axis each.
+// The fields of one process value, one an axis or node.
 struct Signal {
+  std::string_view protocol;
   std::string_view key;
   const Field* row = nullptr;
   bool scaled = false;
-  std::array<int, kAxes> fields = {};
+  std::deque<int> fields;
 };
 
 struct Registry {
@@ -53,7 +57,7 @@ struct Registry {
   std::deque<int> layout_subtrees;
   std::unordered_map<std::string_view, std::deque<std::pair<const Field*, int>>> derived;
   std::deque<Signal> signals;
-  std::unordered_map<std::string_view, const Signal*> signal_of;
+  std::map<std::pair<std::string_view, std::string_view>, const Signal*> signal_of;  // by protocol and key
   FindingFields finding;
   Subtrees subtrees;
   std::deque<hf_register_info> rows;
@@ -238,16 +242,16 @@ void register_layouts() {
 
 void register_signals() {
   Registry& all = registry();
-  const int protocol = find_protocol("rtex")->id;
   const auto collect = [&all](std::string_view of, const Field& field) {
     const bool is_number = field.kind == Kind::kSigned || field.kind == Kind::kUnsigned;
-    if (of != "rtex" || field.role != Role::kSignal || !is_number) return;
+    if (field.role != Role::kSignal || !is_number || find_protocol(of) == nullptr) return;
     for (Signal& signal : all.signals) {
-      if (signal.key != field.key) continue;
+      if (signal.protocol != of || signal.key != field.key) continue;
       signal.scaled = signal.scaled || field.scale != Ratio{};
       return;
     }
     Signal& signal = all.signals.emplace_back();
+    signal.protocol = find_protocol(of)->name;
     signal.key = field.key;
     signal.row = &field;
     signal.scaled = field.scale != Ratio{};
@@ -257,12 +261,15 @@ void register_signals() {
   }
   for (const DerivedField& row : all_derived()) collect(row.protocol, *row.field);
   for (Signal& signal : all.signals) {
-    all.signal_of.emplace(signal.key, &signal);
-    for (std::size_t axis = 0; axis < kAxes; ++axis) {
-      const std::string label = std::string(signal.row->label) + ", axis " + std::to_string(axis);
-      add_field(protocol, &signal.fields[axis], all.texts.keep(label),
-                filter_name("rtex", "axis" + std::to_string(axis), signal.key), signal.scaled ? FT_DOUBLE : FT_INT64,
-                signal.scaled ? int{BASE_NONE} : int{BASE_DEC}, nullptr, 0, blurb_of(*signal.row));
+    all.signal_of.emplace(std::pair{signal.protocol, signal.key}, &signal);
+    const bool is_ring = signal.protocol == "rtex";
+    const std::string word = is_ring ? "axis" : "node";
+    for (std::size_t node = 0; node < (is_ring ? kAxes : kNodes); ++node) {
+      const std::string label = std::string(signal.row->label) + ", " + word + " " + std::to_string(node);
+      add_field(find_protocol(signal.protocol)->id, &signal.fields.emplace_back(-1), all.texts.keep(label),
+                filter_name(signal.protocol, word + std::to_string(node), signal.key),
+                signal.scaled ? FT_DOUBLE : FT_INT64, signal.scaled ? int{BASE_NONE} : int{BASE_DEC}, nullptr, 0,
+                blurb_of(*signal.row));
     }
   }
 }
@@ -421,11 +428,14 @@ int field_of(const Derived& derived) {
   return -1;
 }
 
-AxisSignal axis_signal(const Field& field, std::int16_t mac_id) {
-  if (field.role != Role::kSignal || mac_id < 0 || static_cast<std::size_t>(mac_id) >= kAxes) return {};
-  const auto found = registry().signal_of.find(field.key);
+AxisSignal axis_signal(std::string_view protocol, const Field& field, std::int16_t mac_id) {
+  if (field.role != Role::kSignal || mac_id < 0) return {};
+  const auto found = registry().signal_of.find({protocol, field.key});
   if (found == registry().signal_of.end()) return {};
-  return {found->second->fields[static_cast<std::size_t>(mac_id)], found->second->scaled};
+  const Signal& signal = *found->second;
+  const auto node = static_cast<std::size_t>(mac_id);
+  if (node >= signal.fields.size()) return {};
+  return {signal.fields[node], signal.scaled};
 }
 
 const LinkFields& link_fields(Protocol protocol) {

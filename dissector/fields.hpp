@@ -29,13 +29,13 @@ LayoutFields fields_of(const Layout* layout);
 // -1 for a field that all_derived() does not list.
 int field_of(const Derived& derived);
 
-// A ring's frame speaks of many axes, so graphs need a field of each: `rtex.axis3.actual_position` for every process
-// value. -1 where the field is none, or the MAC ID no axis's. Its values are numbers in the field's unit.
+// Graphs need a field of each axis and node: `rtex.axis3.actual_position`, `ns310.node5.current_position` for every
+// process value. -1 where the field is none, or the MAC ID out of range. Its values are numbers in the field's unit.
 struct AxisSignal {
   int field = -1;
   bool scaled = false;  // a floating-point field: the row has a scale
 };
-AxisSignal axis_signal(const Field& field, std::int16_t mac_id);
+AxisSignal axis_signal(std::string_view protocol, const Field& field, std::int16_t mac_id);
 
 // Links between frames, a set for each of the protocols that have nodes.
 struct LinkFields {

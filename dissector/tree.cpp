@@ -51,10 +51,9 @@ tvbuff_t* tvb_of(const Canvas& canvas, const Segment& segment) {
 }
 
 // Hidden: the row itself shows the value. For graphs and filters.
-void draw_axis_signal(proto_tree* tree, const NodeRef& node, const Field& field, std::int64_t value, tvbuff_t* tvb,
-                      int offset, int length) {
-  if (node.protocol != Protocol::kRtex) return;
-  const AxisSignal signal = axis_signal(field, node.mac_id);
+void draw_axis_signal(proto_tree* tree, std::string_view protocol, std::int16_t mac_id, const Field& field,
+                      std::int64_t value, tvbuff_t* tvb, int offset, int length) {
+  const AxisSignal signal = axis_signal(protocol, field, mac_id);
   if (signal.field < 0) return;
   const double scaled = static_cast<double>(value) * field.scale.numerator / field.scale.denominator;
   proto_item_set_hidden(signal.scaled ? proto_tree_add_double(tree, signal.field, tvb, offset, length, scaled)
@@ -77,7 +76,7 @@ proto_item* draw_field(const Canvas& canvas, proto_tree* tree, const Segment& se
       proto_tree_add_item(tree, id, tvb_of(canvas, segment), static_cast<int>(segment.offset + field.first_byte()),
                           static_cast<int>(size), encoding);
   if (!is_number) return item;
-  draw_axis_signal(tree, segment.node, field, value, tvb_of(canvas, segment),
+  draw_axis_signal(tree, segment.layout->protocol, segment.node.mac_id, field, value, tvb_of(canvas, segment),
                    static_cast<int>(segment.offset + field.first_byte()), static_cast<int>(size));
   if (!is_visible(tree)) return item;
   const char* const unit = unit_text(canvas.pinfo->pool, field, value);
@@ -180,7 +179,7 @@ void draw_derived(const Canvas& canvas, const Derived& derived) {
   tvbuff_t* const tvb = canvas.frame->tvb;
   proto_item* item = nullptr;
   if (derived.field->role == Role::kSignal)
-    draw_axis_signal(tree, derived.node, *derived.field, derived.value, tvb, 0, 0);
+    draw_axis_signal(tree, derived.protocol, derived.node.mac_id, *derived.field, derived.value, tvb, 0, 0);
   const bool wide = derived.field->width == 0 || derived.field->byte_count() > 4;
   switch (derived.field->kind) {
     case Kind::kText:

@@ -27,7 +27,7 @@ void on_bus_error(int signal, siginfo_t* info, void* context) {
   for (Slot& slot : slots) {
     if (address < slot.begin.load(std::memory_order_acquire) || address >= slot.end.load(std::memory_order_acquire))
       continue;
-    void* const page = reinterpret_cast<void*>(address / page_size * page_size);
+    void* const page = static_cast<char*>(info->si_addr) - address % page_size;
     if (::mmap(page, page_size, PROT_READ, MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED, -1, 0) == MAP_FAILED) break;
     slot.lost = 1;
     return;

@@ -48,7 +48,7 @@ bool is_series(const Field& field) {
 
 }  // namespace
 
-Collector::Collector(const Settings& settings, std::vector<Watch> watches, std::set<std::uint64_t> evidence)
+Collector::Collector(const Settings& settings, const std::vector<Watch>& watches, std::set<std::uint64_t> evidence)
     : settings_(settings), evidence_wanted_(std::move(evidence)) {
   for (const Watch& watch : watches) {
     close_ups_.emplace_back();

@@ -31,7 +31,7 @@ struct Watch {
 class Collector {
  public:
   // `evidence`: frames whose sentence is wanted.
-  Collector(const Settings& settings, std::vector<Watch> watches, std::set<std::uint64_t> evidence);
+  Collector(const Settings& settings, const std::vector<Watch>& watches, std::set<std::uint64_t> evidence);
 
   void add(const RawFrame& frame, const Dissection& dissection);
   // Moves what was gathered into the model; faults' parts into the fault of the same index as its watch.

@@ -106,6 +106,22 @@ TEST_F(Plugin, ProcessValuesOfOneAxis) {
               ContainsRegex("MAX"));
 }
 
+// The same of a DeviceNet node.
+TEST_F(Plugin, ProcessValuesOfOneNode) {
+  const std::string file = shared_->copy(source_dir() / "captures" / "ns310_clean.pcapng").string();
+  const Ran ran = tshark_.run({"-r", file, "-Y", "ns310.response.current_position", "-T", "fields", "-e",
+                               "ns310.response.current_position", "-e", "ns310.node3.current_position", "-e",
+                               "ns310.node5.current_position"});
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  const auto rows = rows_of(ran.out);
+  ASSERT_FALSE(rows.empty());
+  for (const auto& row : rows) {
+    ASSERT_GE(row.size(), 2U);
+    EXPECT_EQ(row[0], row[1]);
+    EXPECT_TRUE(row.size() == 2 || row[2].empty());
+  }
+}
+
 TEST_F(Plugin, TablesNameAxes) {
   const std::string out = run({"-c", "20", "-o", R"(uat:servotrace_axes:"","1","left","","","","7.23=0x20","")", "-o",
                                R"(uat:servotrace_axes:"0","2","right","16","semi-closed","absolute","","1000")"});
