@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
-// servotrace convert: any capture or log that is read, as pcapng; RTEX records from one carrier into another.
+// servotrace convert: any capture or log that is read, as pcapng; a controller's own log by a column map; RTEX records
+// from one carrier into another.
+#include <unistd.h>
+
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -7,6 +10,7 @@
 
 #include "decoder/link/rtex_record.hpp"
 #include "replay/capture/pcapng_writer.hpp"
+#include "replay/capture/rtex_log.hpp"
 #include "replay/commands.hpp"
 #include "replay/console.hpp"
 #include "replay/exit_status.hpp"
@@ -61,17 +65,18 @@ void put_udp(std::vector<std::uint8_t>& to, std::uint16_t port, std::size_t payl
 
 class Converter {
  public:
-  Converter(PcapngWriter& writer, Carrier carrier, const RtexSettings& settings)
-      : writer_(writer), carrier_(carrier), settings_(settings) {}
+  // `keep_resolution`: the times are as coarse as the source says, and the copy says so, too.
+  Converter(PcapngWriter& writer, Carrier carrier, const RtexSettings& settings, bool keep_resolution)
+      : writer_(writer), carrier_(carrier), settings_(settings), keep_resolution_(keep_resolution) {}
 
   void take(const RawFrame& frame, const Source& source) {
     const rtex::RecordPlace place = rtex::find_record(frame, settings_);
     const bool whole =
         place.carrier != Carrier::kNone && !place.malformed && frame.original_length <= frame.bytes.size();
-    const std::string& name = source.interfaces()[frame.interface_id].name;
+    const InterfaceInfo& info = source.interfaces()[frame.interface_id];
     if (carrier_ == Carrier::kNone || !whole) {
       // Everything else keeps its bytes: a record that is cut or malformed is evidence, too.
-      writer_.write(interface(frame.interface_id, frame.link_type, name), frame.time_ns, frame.bytes,
+      writer_.write(interface(frame.interface_id, frame.link_type, info), frame.time_ns, frame.bytes,
                     frame.original_length);
       return;
     }
@@ -81,7 +86,7 @@ class Converter {
     if (carrier_ == Carrier::kEthernet) put_ethernet(bytes_, settings_.ethertype);
     if (carrier_ == Carrier::kUdp) put_udp(bytes_, settings_.udp_port, record.size());
     bytes_.insert(bytes_.end(), record.begin(), record.end());
-    writer_.write(interface(frame.interface_id, link_type(), name), frame.time_ns, bytes_,
+    writer_.write(interface(frame.interface_id, link_type(), info), frame.time_ns, bytes_,
                   static_cast<std::uint32_t>(bytes_.size()));
   }
 
@@ -101,24 +106,55 @@ class Converter {
     return LinkType::kWiresharkUpperPdu;
   }
 
-  std::uint32_t interface(std::uint32_t source_id, LinkType type, const std::string& name) {
+  std::uint32_t interface(std::uint32_t source_id, LinkType type, const InterfaceInfo& info) {
     const auto [entry, is_new] = interfaces_.try_emplace({source_id, type}, 0U);
-    if (is_new) entry->second = writer_.add_interface(type, name);
+    if (is_new) entry->second = writer_.add_interface(type, info.name, keep_resolution_ ? info.time_resolution_ns : 1);
     return entry->second;
   }
 
   PcapngWriter& writer_;
   Carrier carrier_;
   const RtexSettings& settings_;
+  bool keep_resolution_;
   std::map<std::pair<std::uint32_t, LinkType>, std::uint32_t> interfaces_;
   std::vector<std::uint8_t> bytes_;
 };
 
+// What convert reads: a capture, or a controller's log by its map.
+struct Opened {
+  std::unique_ptr<Source> source;
+  const RtexLogSource* log = nullptr;  // of `source`, where it is a log
+};
+
+Result<Opened> open_log(const CaptureInput& input, const RtexLogMap& map) {
+  auto log = input.is_stream() ? open_rtex_log_stream(STDIN_FILENO, input.name, map) : open_rtex_log(input.path, map);
+  if (!log) return log.error();
+  const RtexLogSource* const as_log = log->get();
+  return Opened{std::move(*log), as_log};
+}
+
+// --map wins; the settings' map is for what is no capture.
+Result<Opened> open_for_convert(const CaptureInput& input, const std::string& map_path, const FileSettings& settings) {
+  if (!map_path.empty()) {
+    const Result<RtexLogMap> map = read_log_map(map_path);
+    return map ? open_log(input, *map) : Result<Opened>(map.error());
+  }
+  Result<std::unique_ptr<Source>> source = open_input(input);
+  if (source) return Opened{std::move(*source)};
+  if (settings.log && !input.is_stream()) return open_log(input, *settings.log);
+  return source.error();
+}
+
 }  // namespace
 
 int run_convert(const Arguments& arguments) {
-  CLI::App app("Any capture or log that is read, as pcapng; RTEX records into another carrier.", "servotrace convert");
+  CLI::App app(
+      "Any capture or log that is read, as pcapng; a controller's own log of RTEX memories by a column map; RTEX "
+      "records "
+      "into another carrier.",
+      "servotrace convert");
   std::string capture;
+  std::string map_path;
   std::string out_path;
   std::string carrier_word = "keep";
   CaptureOptions capture_options;
@@ -127,11 +163,14 @@ int run_convert(const Arguments& arguments) {
   app.add_option("--carrier", carrier_word, "RTEX records: keep, pdu, ethernet, udp or user")
       ->check(CLI::IsMember({"keep", "pdu", "ethernet", "udp", "user"}))
       ->capture_default_str();
+  app.add_option("--map", map_path, "IN is a log (CSV or text), and this file says which column holds what")
+      ->type_name("FILE");
   capture_options.add_to(app);
   app.footer(
       "Exit status: 0 done, 2 could not do the job.\n\n"
       "Examples:\n  servotrace convert candump.log -o can.pcapng\n"
-      "  servotrace convert run.pcap -o run.pcapng --carrier pdu");
+      "  servotrace convert run.pcap -o run.pcapng --carrier pdu\n"
+      "  servotrace convert trace.csv -o trace.pcapng --map columns.toml");
   if (const std::optional<int> status = parse(app, arguments)) return *status;
   const auto fail = [](const Error& error) {
     complain(error);
@@ -146,17 +185,22 @@ int run_convert(const Arguments& arguments) {
   if (!input) return fail(input.error());
   const auto settings = capture_options.settings(input->path);
   if (!settings) return fail(settings.error());
-  const Result<std::unique_ptr<Source>> source = open_input(*input);
-  if (!source) return fail(source.error());
+  const Result<Opened> opened = open_for_convert(*input, map_path, **settings);
+  if (!opened) return fail(opened.error());
+  Source& source = *opened->source;
   const Result<std::unique_ptr<PcapngWriter>> writer = PcapngWriter::create(out_path);
   if (!writer) return fail(writer.error());
-  Converter converter(**writer, carriers.at(carrier_word), (*settings)->decoder.rtex);
+  Converter converter(**writer, carriers.at(carrier_word), (*settings)->decoder.rtex, opened->log != nullptr);
   RawFrame frame;
   Source::Step step = Source::Step::kEnd;
-  while ((step = (*source)->next(frame)) == Source::Step::kFrame) converter.take(frame, **source);
+  while ((step = source.next(frame)) == Source::Step::kFrame) converter.take(frame, source);
   if (const Result<void> written = (*writer)->finish(); !written) return fail(written.error());
-  if (step == Source::Step::kError) return fail((*source)->error());
-  if ((*source)->truncation()) return fail({input->name, "ends inside a record: what came before it was converted"});
+  if (step == Source::Step::kError) return fail(source.error());
+  if (source.truncation()) return fail({input->name, "ends inside a record: what came before it was converted"});
+  if (opened->log != nullptr && opened->log->incomplete() != 0) {
+    complain(Error{input->name, fmt::format("{} records left out: the rows of some axes are missing in their cycles",
+                                            opened->log->incomplete())});
+  }
   return kExitClean;
 }
 

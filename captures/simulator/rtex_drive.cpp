@@ -207,6 +207,7 @@ void A5nDrive::follow(std::int64_t target) {
 
 void A5nDrive::move(Bytes command) {
   const std::int64_t before = motor_.position + offset_;
+  if (!servo_active_ || mode_ != kCp) inhibited_ = false;
   if (!servo_active_) {
     profile_ = {};
     motor_.to_speed(0, kMotorRate, step_ns_);
@@ -230,9 +231,11 @@ void A5nDrive::move(Bytes command) {
         cp_from_ = command_;
         cp_to_ = command_ + std::int64_t{step} * kMicro - command_ % kMicro;
         cp_step_ = 0;
+        inhibited_ = step != 0 && (step > 0 ? 1 : -1) == inhibited_direction();
+        if (inhibited_) cp_to_ = cp_from_;
         const std::int64_t limit = std::int64_t{config_.max_rpm} * config_.units_per_rev / 50;  // a second
-        if (std::abs(std::int64_t{step}) * timing_.cycles_per_second / timing_.ratio > limit && !homing_lock_)
-          raise_alarm({27, 4});
+        const bool too_fast = std::abs(std::int64_t{step}) * timing_.cycles_per_second / timing_.ratio > limit;
+        if (too_fast && !inhibited_ && !homing_lock_) raise_alarm({27, 4});
         cp_first_ = false;
       }
       const int steps = step_ns_ > timing_.cycle_ns ? 1 : timing_.ratio;
@@ -266,6 +269,15 @@ void A5nDrive::move(Bytes command) {
       break;
   }
   watch_triggers(before);
+}
+
+// Drive inhibit acts where Pr5.04 says so; here only where the scenario does, too.
+int A5nDrive::inhibited_direction() const {
+  if (parameter(5, 4, 1) != 0) return 0;
+  const bool swapped = (parameter(7, 23) & 0x08) != 0;
+  const unsigned active = input_byte() & 3U;
+  if (active == 0 || active == 3) return 0;
+  return (active == 2) != swapped ? 1 : -1;
 }
 
 void A5nDrive::move_profile() {

@@ -131,6 +131,7 @@ class A5nDrive {
   void follow(std::int64_t target);
   void watch_triggers(std::int64_t before);
   std::uint8_t input_byte() const;
+  int inhibited_direction() const;  // 1 POT, -1 NOT, 0 neither or both
 
   // rtex_drive_commands.cpp
   void process_main(Bytes command, int cyclic);
@@ -213,6 +214,7 @@ class A5nDrive {
   std::int32_t torque_ = 0;
   bool torque_limited_ = false;
   bool blocked_ = false;
+  bool inhibited_ = false;  // the command goes on in the inhibited direction: 0046h
   bool homing_complete_ = false;
   bool homing_lock_ = false;  // after Homing_Complete while 24h is held: servo-lock
   Profile profile_;

@@ -306,6 +306,8 @@ void A5nDrive::start_homing(DriveChannel& channel) {
   homing_complete_ = false;
   latches_ = {};
   if (type != 0x31) profile_ = {};
+  // 6-5-1: POT and NOT end a homing only where they are no drive inhibit inputs.
+  if (type >= 0x14 && type <= 0x17 && parameter(5, 4, 1) != 1) raise_alarm({38, 2});
 }
 
 void A5nDrive::start_profile(DriveChannel& channel, Bytes command) {
@@ -541,7 +543,8 @@ void A5nDrive::respond_main(MutableBytes response) const {
   }
   put(response::kCodeEcho, response, code_echo_);
   const DriveChannel& channel = main_;
-  const int error = header_error_ != 0 ? header_error_ : (channel.error != 0 ? channel.error : 0);
+  const int own = channel.error != 0 ? channel.error : (inhibited_ ? 0x0046 : 0);
+  const int error = header_error_ != 0 ? header_error_ : own;
   if (error != 0) {
     put(response::kCmdError, response, 1);
     put(response::kErrorCode, response, error);

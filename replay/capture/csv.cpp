@@ -62,28 +62,6 @@ constexpr TimeUnit kUnits[] = {{"ns", 1},
                                {"seconds", kSecondNs},
                                {"s", kSecondNs}};
 
-// The next cell of a row; quotes around a cell are taken off (a separator inside them does not end it).
-std::string_view next_cell(std::string_view& rest, char separator, bool& more) {
-  std::size_t end = 0;
-  bool quoted = false;
-  while (end < rest.size() && (quoted || rest[end] != separator)) {
-    if (rest[end] == '"') quoted = !quoted;
-    ++end;
-  }
-  std::string_view cell = rest.substr(0, end);
-  more = end < rest.size();
-  rest.remove_prefix(more ? end + 1 : end);
-  const auto trim = [&cell](char c) {
-    while (!cell.empty() && cell.front() == c) cell.remove_prefix(1);
-    while (!cell.empty() && cell.back() == c) cell.remove_suffix(1);
-  };
-  trim(' ');
-  trim('\t');
-  if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') cell = cell.substr(1, cell.size() - 2);
-  trim(' ');
-  return cell;
-}
-
 // "Time [ms]", "time_us", "timestamp" to the time column and its unit.
 bool is_time(const std::string& cell, std::int64_t& unit_ns) {
   const std::size_t split = cell.find_first_of(" _[(");
@@ -210,7 +188,7 @@ class CsvSource final : public TextSource {
     bool more = true;
     for (const CsvColumn column : header_.columns) {
       if (!more) break;
-      const std::string_view cell = next_cell(rest, header_.separator, more);
+      const std::string_view cell = next_csv_cell(rest, header_.separator, more);
       switch (column) {
         case CsvColumn::kTime: {
           unsigned places = 0;
@@ -303,6 +281,27 @@ class CsvSource final : public TextSource {
 
 }  // namespace
 
+std::string_view next_csv_cell(std::string_view& rest, char separator, bool& more) {
+  std::size_t end = 0;
+  bool quoted = false;
+  while (end < rest.size() && (quoted || rest[end] != separator)) {
+    if (rest[end] == '"') quoted = !quoted;
+    ++end;
+  }
+  std::string_view cell = rest.substr(0, end);
+  more = end < rest.size();
+  rest.remove_prefix(more ? end + 1 : end);
+  const auto trim = [&cell](char c) {
+    while (!cell.empty() && cell.front() == c) cell.remove_prefix(1);
+    while (!cell.empty() && cell.back() == c) cell.remove_suffix(1);
+  };
+  trim(' ');
+  trim('\t');
+  if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') cell = cell.substr(1, cell.size() - 2);
+  trim(' ');
+  return cell;
+}
+
 std::optional<CsvHeader> parse_csv_header(std::string_view line) {
   for (const char separator : {',', ';', '\t'}) {
     CsvHeader header{.separator = separator};
@@ -310,7 +309,7 @@ std::optional<CsvHeader> parse_csv_header(std::string_view line) {
     bool more = true;
     bool has_time = false, has_identifier = false, has_data = false, has_stamp = false;
     while (more && header.columns.size() < kMaxColumns) {
-      const std::string_view cell = next_cell(rest, separator, more);
+      const std::string_view cell = next_csv_cell(rest, separator, more);
       std::int64_t unit_ns = kSecondNs;
       CsvColumn column = column_of(cell, unit_ns);
       if (column == CsvColumn::kTime && has_time) column = CsvColumn::kOther;

@@ -31,4 +31,8 @@ struct CsvHeader {
 // Empty where the line is no such header: it needs a time, an identifier and data.
 std::optional<CsvHeader> parse_csv_header(std::string_view line);
 
+// The next cell of a row; quotes around a cell are taken off (a separator inside them does not end it). `more`: there
+// is another one.
+std::string_view next_csv_cell(std::string_view& rest, char separator, bool& more);
+
 }  // namespace servotrace::replay

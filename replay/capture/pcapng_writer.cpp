@@ -63,7 +63,7 @@ struct PcapngWriter::Impl {
   std::unique_ptr<WholeFile> file;
   std::string name;
   Block block;
-  std::uint32_t interfaces = 0;
+  std::vector<std::uint32_t> resolutions;  // nanoseconds, by interface
   std::optional<Error> error;
 
   void fail(std::string what) {
@@ -92,29 +92,40 @@ Result<std::unique_ptr<PcapngWriter>> PcapngWriter::create(const std::filesystem
   return std::unique_ptr<PcapngWriter>(new PcapngWriter(std::move(impl)));
 }
 
-std::uint32_t PcapngWriter::add_interface(LinkType link_type, std::string_view name) {
+std::uint32_t PcapngWriter::add_interface(LinkType link_type, std::string_view name, std::uint32_t resolution_ns) {
+  std::uint8_t places = kNanoseconds;
+  std::uint32_t tick_ns = 1;
+  while (places > 1 && tick_ns < resolution_ns) {
+    tick_ns *= 10;
+    --places;
+  }
+  if (tick_ns != resolution_ns) {
+    tick_ns = 1;
+    places = kNanoseconds;
+  }
   Block& block = impl_->block;
   block.start(pcapng::kInterfaceDescription);
   block.put(static_cast<std::uint16_t>(link_type), 2);
   block.put(0, 2);
   block.put(kNoSnapLength, 4);
   if (!name.empty()) block.option(pcapng::kInterfaceName, cut(name, kMaxComment));
-  block.option(pcapng::kTimeResolution, Bytes(&kNanoseconds, 1));
+  block.option(pcapng::kTimeResolution, Bytes(&places, 1));
   block.put(0, 4);
   impl_->file->write(block.finish());
-  return impl_->interfaces++;
+  impl_->resolutions.push_back(tick_ns);
+  return static_cast<std::uint32_t>(impl_->resolutions.size() - 1);
 }
 
 void PcapngWriter::write(std::uint32_t interface_id, TimeNs time_ns, Bytes bytes, std::uint32_t original_length,
                          std::string_view comment) {
   Impl& self = *impl_;
-  if (interface_id >= self.interfaces) return self.fail("a frame of an interface that was not described");
+  if (interface_id >= self.resolutions.size()) return self.fail("a frame of an interface that was not described");
   if (time_ns < 0) return self.fail("a time before 1970 cannot be written");
   if (bytes.size() > kMaxPacket) return self.fail("a frame is too long to be written");
   Block& block = self.block;
   block.start(pcapng::kEnhancedPacket);
   block.put(interface_id, 4);
-  const auto ticks = static_cast<std::uint64_t>(time_ns);
+  const auto ticks = static_cast<std::uint64_t>(time_ns) / self.resolutions[interface_id];
   block.put(ticks >> 32U, 4);
   block.put(ticks & 0xFFFF'FFFFU, 4);
   block.put(bytes.size(), 4);

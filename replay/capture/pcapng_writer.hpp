@@ -23,8 +23,9 @@ class PcapngWriter {
   // Removes the temporary file where finish() was not called.
   ~PcapngWriter();
 
-  // Returns the interface's id, from 0.
-  std::uint32_t add_interface(LinkType link_type, std::string_view name);
+  // Returns the interface's id, from 0. `resolution_ns`: how fine its times are, written down where it is a power of
+  // ten of a second below one; else nanoseconds. Times are rounded down to it.
+  std::uint32_t add_interface(LinkType link_type, std::string_view name, std::uint32_t resolution_ns = 1);
   // `comment` (UTF-8) becomes an opt_comment where not empty.
   void write(std::uint32_t interface_id, TimeNs time_ns, Bytes bytes, std::uint32_t original_length,
              std::string_view comment = {});

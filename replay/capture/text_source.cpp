@@ -20,7 +20,7 @@ bool is_blank(char c) { return c == ' ' || c == '\t'; }
 
 }  // namespace
 
-Source::Step TextSource::read_line(std::string_view& line) {
+Source::Step LineSource::read_line(std::string_view& line) {
   std::size_t searched = 0;
   for (;;) {
     const Bytes there = input_->at_hand();
@@ -50,7 +50,7 @@ Source::Step TextSource::read_line(std::string_view& line) {
   }
 }
 
-Source::Step TextSource::fail_line(std::string what) {
+Source::Step LineSource::fail_line(std::string what) {
   error_ = Error{name_ + ":" + std::to_string(line_number_), std::move(what)};
   return Step::kError;
 }

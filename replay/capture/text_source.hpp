@@ -25,16 +25,25 @@ struct CanRecord {
   std::uint32_t resolution_ns = 1;         // of the log's timestamps
 };
 
-class TextSource : public FileSource {
- public:
-  Step next(RawFrame& frame) final;
-
+// A log read line by line.
+class LineSource : public FileSource {
  protected:
   using FileSource::FileSource;
 
   // The next line without its end. kEnd: there is none.
   Step read_line(std::string_view& line);
   Step fail_line(std::string what);
+
+ private:
+  std::uint64_t line_number_ = 0;
+};
+
+class TextSource : public LineSource {
+ public:
+  Step next(RawFrame& frame) final;
+
+ protected:
+  using LineSource::LineSource;
 
   enum class Line : std::uint8_t { kRecord, kNothing, kBroken };
   // kRecord: `record` is filled. kBroken: `what_` says what is wrong.
@@ -45,7 +54,6 @@ class TextSource : public FileSource {
  private:
   Step emit(const CanRecord& record, RawFrame& frame);
 
-  std::uint64_t line_number_ = 0;
   std::uint64_t number_ = 0;
   std::uint32_t last_interface_ = 0;
   std::array<std::uint8_t, 8 + 64> bytes_ = {};

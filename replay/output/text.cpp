@@ -21,10 +21,17 @@ class Text : public Output {
   void capture(const CaptureRecord& capture) override {
     for (const FindingRecord& finding : capture.findings) write(capture, finding);
     for (const RuleRecord& rule : capture.rules) add(capture, rule);
+    for (const NodeRecord& node : capture.nodes) {
+      if (node.sampled) sampled_.insert(fmt::format("{}: {}", capture.file, node.node.bus));
+    }
   }
 
   void end(const RunTotals& totals) override {
     write_table();
+    for (const std::string& bus : sampled_) {
+      out().write(bus +
+                  " is sampled: the recorder did not take every cycle; rules that need every cycle were silent\n");
+    }
     write_verdict(totals);
   }
 
@@ -120,6 +127,7 @@ class Text : public Output {
 
   Style style_;
   std::map<RuleId, Row> rows_;
+  std::set<std::string> sampled_;  // buses
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "replay/settings/rtex_log_reader.hpp"
 #include "replay/settings/toml_reader.hpp"
 
 namespace servotrace::replay {
@@ -14,15 +15,6 @@ namespace {
 
 constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
 constexpr std::int64_t kDayMs = 86'400'000;
-
-// A communication cycle in us, taken to the nearest of the four within 2 % (SX-DSV02203 2-5-1).
-std::optional<DurationNs> nearest_cycle_ns(double cycle_us) {
-  for (const DurationNs cycle_ns : {83333, 166667, 500000, 1000000}) {
-    const double exact_us = static_cast<double>(cycle_ns) / 1000;
-    if (cycle_us > exact_us * 0.98 && cycle_us < exact_us * 1.02) return cycle_ns;
-  }
-  return {};
-}
 
 // "7.23" to 0717h.
 std::optional<std::uint16_t> parameter_index(std::string_view text) {
@@ -108,11 +100,12 @@ void read_axis(const toml::table& source, RtexSettings& rtex, TomlErrors& errors
   rtex.axes.push_back(std::move(axis));
 }
 
-void read_rtex(const toml::table& source, RtexSettings& rtex, TomlErrors& errors) {
-  const TomlTable table(
-      source, "[rtex]",
-      {"communication_cycle_us", "command_update_ratio", "sync", "user_link_type", "ethertype", "udp_port", "axis"},
-      errors);
+void read_rtex(const toml::table& source, FileSettings& settings, TomlErrors& errors) {
+  RtexSettings& rtex = settings.decoder.rtex;
+  const TomlTable table(source, "[rtex]",
+                        {"communication_cycle_us", "command_update_ratio", "sync", "user_link_type", "ethertype",
+                         "udp_port", "axis", "log"},
+                        errors);
   if (const auto cycle_us = table.number("communication_cycle_us")) {
     rtex.communication_cycle_ns = nearest_cycle_ns(*cycle_us);
     if (!rtex.communication_cycle_ns) {
@@ -131,6 +124,7 @@ void read_rtex(const toml::table& source, RtexSettings& rtex, TomlErrors& errors
   if (const auto type = table.integer("ethertype", 0x0600, 0xFFFF)) rtex.ethertype = static_cast<std::uint16_t>(*type);
   if (const auto port = table.integer("udp_port", 1, 65535)) rtex.udp_port = static_cast<std::uint16_t>(*port);
   table.each_table("axis", [&](const toml::table& entry) { read_axis(entry, rtex, errors); });
+  if (const toml::table* const log = table.table("log")) settings.log = read_log_table(*log, errors);
 }
 
 void read_devicenet(const toml::table& source, DevicenetSettings& devicenet, TomlErrors& errors) {
@@ -242,7 +236,7 @@ void read_suppression(const toml::table& source, RuleSettings& rules, TomlErrors
 FileSettings read_root(const toml::table& root, TomlErrors& errors) {
   FileSettings settings;
   const TomlTable table(root, "", {"rtex", "devicenet", "limits", "rules", "suppress"}, errors);
-  if (const toml::table* const rtex = table.table("rtex")) read_rtex(*rtex, settings.decoder.rtex, errors);
+  if (const toml::table* const rtex = table.table("rtex")) read_rtex(*rtex, settings, errors);
   if (const toml::table* const devicenet = table.table("devicenet")) {
     read_devicenet(*devicenet, settings.decoder.devicenet, errors);
   }
@@ -253,6 +247,14 @@ FileSettings read_root(const toml::table& root, TomlErrors& errors) {
 }
 
 }  // namespace
+
+std::optional<DurationNs> nearest_cycle_ns(double cycle_us) {
+  for (const DurationNs cycle_ns : {83333, 166667, 500000, 1000000}) {
+    const double exact_us = static_cast<double>(cycle_ns) / 1000;
+    if (cycle_us > exact_us * 0.98 && cycle_us < exact_us * 1.02) return cycle_ns;
+  }
+  return {};
+}
 
 Result<FileSettings> parse_settings(std::string_view text, std::string origin) {
   TomlErrors errors(origin);

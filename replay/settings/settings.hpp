@@ -9,6 +9,7 @@
 
 #include "decoder/core/result.hpp"
 #include "decoder/pipeline/settings.hpp"
+#include "replay/settings/rtex_log_map.hpp"
 #include "replay/settings/rule_filter.hpp"
 
 namespace servotrace::replay {
@@ -18,7 +19,8 @@ inline constexpr std::string_view kSettingsName = "servotrace.toml";
 struct FileSettings {
   Settings decoder;
   RuleSettings rules;
-  std::string origin;  // the file's path; empty: built-in defaults, no file
+  std::optional<RtexLogMap> log;  // how a controller's own log is read (`convert`)
+  std::string origin;             // the file's path; empty: built-in defaults, no file
 };
 
 // `origin` names the text in messages. On failure the error's place is "origin:line:column".

@@ -95,6 +95,14 @@ std::optional<double> TomlTable::number(std::string_view key) const {
   return {};
 }
 
+std::optional<bool> TomlTable::boolean(std::string_view key) const {
+  const toml::node* const node = table_.get(key);
+  if (node == nullptr) return {};
+  if (const toml::value<bool>* const value = node->as_boolean()) return value->get();
+  wrong_type(*node, key, "true or false");
+  return {};
+}
+
 std::optional<std::string> TomlTable::text(std::string_view key) const {
   const toml::node* const node = table_.get(key);
   if (node == nullptr) return {};

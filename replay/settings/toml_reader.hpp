@@ -50,6 +50,7 @@ class TomlTable {
   std::optional<std::int64_t> integer(std::string_view key, std::int64_t minimum, std::int64_t maximum) const;
   // Integers are taken for numbers too. Never a NaN or infinity.
   std::optional<double> number(std::string_view key) const;
+  std::optional<bool> boolean(std::string_view key) const;
   // Never empty.
   std::optional<std::string> text(std::string_view key) const;
   // The index in `choices` of a string value.
