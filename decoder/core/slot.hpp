@@ -4,8 +4,11 @@
 // Bounds are checked once a layout, by whoever makes the view (`fits`), not once a field.
 #pragma once
 
+#include <bit>
 #include <cassert>
 #include <cstdint>
+#include <cstring>
+#include <type_traits>
 
 #include "decoder/core/bytes.hpp"
 #include "decoder/core/layout.hpp"
@@ -43,18 +46,57 @@ consteval Slot slot(const Layout& layout, std::string_view key) {
   throw "no such field in this layout";
 }
 
+namespace detail {
+// One load, where the machine has it: compilers do not make one of the loop.
+template <class Word>
+[[gnu::always_inline]] inline std::uint64_t load_word(const std::uint8_t* from) {
+  Word word;
+  std::memcpy(&word, from, sizeof word);
+  return word;
+}
+
+// The whole number in `byte_count` (0 to 8) bytes from `from` on.
+[[gnu::always_inline]] constexpr std::uint64_t load_little(const std::uint8_t* from, unsigned byte_count) {
+  if (!std::is_constant_evaluated() && std::endian::native == std::endian::little) {
+    switch (byte_count) {
+      case 1:
+        return *from;
+      case 2:
+        return load_word<std::uint16_t>(from);
+      case 3:
+        return load_word<std::uint16_t>(from) | std::uint64_t{from[2]} << 16U;
+      case 4:
+        return load_word<std::uint32_t>(from);
+      case 8:
+        return load_word<std::uint64_t>(from);
+      default:
+        break;
+    }
+  }
+  std::uint64_t raw = 0;
+  for (unsigned i = 0; i < byte_count; ++i) raw |= std::uint64_t{from[i]} << (8U * i);
+  return raw;
+}
+[[gnu::always_inline]] constexpr std::uint64_t load_big(const std::uint8_t* from, unsigned byte_count) {
+  if (!std::is_constant_evaluated() && std::endian::native == std::endian::little) {
+    if (byte_count == 1) return *from;
+    if (byte_count == 2) return __builtin_bswap16(static_cast<std::uint16_t>(load_word<std::uint16_t>(from)));
+    if (byte_count == 4) return __builtin_bswap32(static_cast<std::uint32_t>(load_word<std::uint32_t>(from)));
+  }
+  std::uint64_t raw = 0;
+  for (unsigned i = 0; i < byte_count; ++i) raw = raw << 8U | from[i];
+  return raw;
+}
+}  // namespace detail
+
 constexpr bool fits(const Layout& layout, Bytes bytes) { return bytes.size() >= layout.size; }
 
 // The value of a slot, sign-extended where the row is signed. Precondition: fits(layout, bytes).
 [[gnu::always_inline]] constexpr std::int64_t read(Slot slot, Bytes bytes) {
   assert(std::size_t{slot.first_byte} + slot.byte_count <= bytes.size());
   const std::uint8_t* const at_byte = bytes.data() + slot.first_byte;
-  std::uint64_t raw = 0;
-  if (slot.order == ByteOrder::kLittle) {
-    for (unsigned i = 0; i < slot.byte_count; ++i) raw |= std::uint64_t{at_byte[i]} << (8U * i);
-  } else {
-    for (unsigned i = 0; i < slot.byte_count; ++i) raw = raw << 8U | at_byte[i];
-  }
+  std::uint64_t raw = slot.order == ByteOrder::kLittle ? detail::load_little(at_byte, slot.byte_count)
+                                                       : detail::load_big(at_byte, slot.byte_count);
   raw >>= slot.shift;
   if (slot.width == 0) return 0;
   if (slot.width < 64) {
@@ -99,22 +141,16 @@ constexpr Bytes bytes_of(const Field& field, Bytes bytes) {
 // Precondition: offset + width <= size.
 [[gnu::always_inline]] constexpr std::uint32_t load_le(Bytes bytes, std::size_t offset, unsigned byte_count) {
   assert(offset + byte_count <= bytes.size() && byte_count <= 4);
-  std::uint32_t raw = 0;
-  for (unsigned i = 0; i < byte_count; ++i) raw |= std::uint32_t{bytes[offset + i]} << (8U * i);
-  return raw;
+  return static_cast<std::uint32_t>(detail::load_little(bytes.data() + offset, byte_count));
 }
 // Eight bytes at once, for comparing a block with the one before. Precondition: offset + 8 <= size.
 [[gnu::always_inline]] constexpr std::uint64_t load_le64(Bytes bytes, std::size_t offset) {
   assert(offset + 8 <= bytes.size());
-  std::uint64_t raw = 0;
-  for (unsigned i = 0; i < 8; ++i) raw |= std::uint64_t{bytes[offset + i]} << (8U * i);
-  return raw;
+  return detail::load_little(bytes.data() + offset, 8);
 }
 [[gnu::always_inline]] constexpr std::uint32_t load_be(Bytes bytes, std::size_t offset, unsigned byte_count) {
   assert(offset + byte_count <= bytes.size() && byte_count <= 4);
-  std::uint32_t raw = 0;
-  for (unsigned i = 0; i < byte_count; ++i) raw = raw << 8U | bytes[offset + i];
-  return raw;
+  return static_cast<std::uint32_t>(detail::load_big(bytes.data() + offset, byte_count));
 }
 
 }  // namespace servotrace
