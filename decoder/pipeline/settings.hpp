@@ -81,6 +81,7 @@ struct Settings {
   DevicenetSettings devicenet;
   Limits limits;
   std::uint32_t max_findings = 100;  // kept for each rule and owner
+  bool judge_every_block = false;    // take no short cut for blocks that say nothing new: tests compare the two
 
   // The settings of an axis, or nullptr. An entry without a ring holds for every ring.
   const RtexAxisSettings* axis(std::uint8_t ring, std::int16_t mac_id) const {

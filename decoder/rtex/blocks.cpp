@@ -41,6 +41,9 @@ void Engine::name_node(Node& node, std::uint8_t mac_id, bool actual) {
 }
 
 void Engine::push_command(const Context& context, Node& node, Bytes block, std::uint32_t block_at, BlockSize size) {
+  ++ring_.awake;
+  wake(node);
+  const bool same = same_but_counter(block, node.command_raw, size);
   const auto raw = raw_of(block);
   node.command_raw = raw;
   if (!node.command_written && is_zero(raw)) return;  // not yet written
@@ -59,6 +62,9 @@ void Engine::push_command(const Context& context, Node& node, Bytes block, std::
   Scene scene = ring_scene(context);
   scene.node = &node;
   scene.block_at = block_at;
+  scene.passed = &node.quiet.command_passed;
+  node.quiet.command_passed.clear();
+  node.quiet.raised = false;
   Events events = kCommandBlock;
   node.mode_changed = command.is_mode() && node.mode_known && node.mode != command.cyclic;
   node.mode_before = node.mode;
@@ -92,9 +98,13 @@ void Engine::push_command(const Context& context, Node& node, Bytes block, std::
     node.servo_on_sent = command.servo_on;
     node.servo_on_known = true;
   }
+  end_full_command(node, same);
 }
 
 void Engine::push_response(const Context& context, Node& node, Bytes block, std::uint32_t block_at, BlockSize size) {
+  ++ring_.awake;
+  wake(node);
+  const bool same = same_but_counter(block, node.response_raw, size);
   const auto raw = raw_of(block);
   const bool identical = node.have_response && raw == node.response_raw;
   if (node.ignore_stale && raw == node.response_raw) return;  // what a drive wrote before its reset
@@ -131,6 +141,9 @@ void Engine::push_response(const Context& context, Node& node, Bytes block, std:
   Scene scene = ring_scene(context);
   scene.node = &node;
   scene.block_at = block_at;
+  scene.passed = &node.quiet.response_passed;
+  node.quiet.response_passed.clear();
+  node.quiet.raised = false;
   Events events = kResponseBlock;
   if (response.cr && !node.status_undefined) events |= kStatus;
   run(scene, events);
@@ -142,6 +155,7 @@ void Engine::push_response(const Context& context, Node& node, Bytes block, std:
   }
   scene.channel = nullptr;
   if (response.cr) track_status(scene);
+  end_full_response(node, same);
 }
 
 }  // namespace servotrace::rtex

@@ -184,12 +184,17 @@ void Engine::judge_misses(Scene& scene) {
   if (!masked) judge(Fact::kCounterWarning, pr(7, 28), counter.warned_warning);
 }
 
+bool Engine::judges_between(const Node& node) {
+  const CommandView& command = node.command;
+  if (!command.is(Cyclic::kCp) || !node.previous.is(Cyclic::kCp) || is_homing(command.main)) return false;
+  return node.have_response && !node.status_undefined && node.response.servo_active && node.counter.phase_known;
+}
+
 // RX212: the position changes inside an updating cycle.
 void Engine::judge_between(Scene& scene) {
   Node& node = *scene.node;
   const CommandView& command = node.command;
-  if (!command.is(Cyclic::kCp) || !node.previous.is(Cyclic::kCp) || is_homing(command.main)) return;
-  if (!node.have_response || node.status_undefined || !node.response.servo_active || !node.counter.phase_known) return;
+  if (!judges_between(node)) return;
   ring_.findings.checked(rule("RX212"));
   if (command.data1 == node.previous.data1) {
     ring_.findings.calm(node.owner, rule("RX212"));
@@ -206,6 +211,7 @@ void Engine::judge_between(Scene& scene) {
 
 void Engine::learn_ratio(const Context& context) {
   if (ring_.node_count == 0) return;
+  if (ring_.ratio_decided && (ring_.pair_judged || !ring_.ratio || !ring_.cycle_ns)) return;
   bool all_active = true;
   for (const auto& node : ring_.all())
     all_active = all_active && node != nullptr && node->have_command && !node->command.is_nop();

@@ -2,6 +2,8 @@
 // Which checks run on which events, and the way of a record through the engine.
 #include "decoder/rtex/engine.hpp"
 
+#include <bit>
+
 #include "decoder/pipeline/rules.hpp"
 
 namespace servotrace::rtex {
@@ -11,21 +13,56 @@ namespace {
 struct Dispatch {
   std::array<std::uint8_t, kRules.size()* 4> rows = {};
   std::array<std::uint16_t, kEventCount + 1> first = {};
+  Events events = kNoEvent;  // that have rows
 };
-consteval Dispatch make_dispatch() {
+consteval Dispatch make_dispatch(bool steady_too) {
   Dispatch table{};
   std::size_t next = 0;
   for (unsigned event = 0; event < kEventCount; ++event) {
     table.first[event] = static_cast<std::uint16_t>(next);
     for (std::size_t row = 0; row < kRules.size(); ++row) {
-      if ((kRules[row].events >> event & 1U) != 0) table.rows[next++] = static_cast<std::uint8_t>(row);
+      if ((kRules[row].events >> event & 1U) == 0 || (!steady_too && is_steady(kRules[row].row.id))) continue;
+      table.rows[next++] = static_cast<std::uint8_t>(row);
+      table.events |= 1U << event;
     }
   }
   table.first[kEventCount] = static_cast<std::uint16_t>(next);
   return table;
 }
-constexpr Dispatch kDispatch = make_dispatch();
+constexpr Dispatch kDispatch = make_dispatch(true);
+constexpr Dispatch kUnsteady = make_dispatch(false);  // what a quiet block is judged by
 static_assert(kRules.size() < 256);
+
+// The rows of `table` at these events.
+void run_rows(const Dispatch& table, Scene& scene, Events events) {
+  Ring& ring = scene.ring;
+  Events done = 0;
+  for (Events rest = events & table.events; rest != 0; rest &= rest - 1U) {
+    const auto event = static_cast<unsigned>(std::countr_zero(rest));
+    const Events bit = 1U << event;
+    for (std::size_t i = table.first[event]; i < table.first[event + 1]; ++i) {
+      const std::size_t place = table.rows[i];
+      const RtexRule& rule = kRules[place];
+      if ((rule.events & done) != 0) continue;  // it ran for an earlier event of this block
+      if (rule.row.needs_every_cycle && ring.sampled) continue;
+      if (rule.scope == Scope::kChannel && scene.channel == nullptr) continue;
+      if (rule.scope == Scope::kNode && scene.node == nullptr) continue;
+      // A node's rules see a command block once, not once a channel.
+      if (rule.scope == Scope::kNode && bit == kActiveCommand && scene.channel != nullptr) continue;
+      scene.rule = id_of(place);
+      scene.owner = rule.scope == Scope::kRing   ? ring.owner
+                    : rule.scope == Scope::kNode ? scene.node->owner
+                                                 : scene.channel->owner;
+      const Outcome outcome = rule.check(scene);
+      if (outcome == Outcome::kSilent) continue;
+      ring.findings.checked(scene.rule);
+      if (outcome != Outcome::kPassed) continue;
+      ring.findings.calm(scene.owner, scene.rule);
+      if (scene.passed != nullptr) scene.passed->push_back(static_cast<std::uint8_t>(place));
+    }
+    done |= bit;
+  }
+}
 
 }  // namespace
 
@@ -43,31 +80,37 @@ RecordHeader read_header(Bytes record) {
   return header;
 }
 
-void Engine::run(Scene& scene, Events events) {
-  Events done = 0;
-  for (unsigned event = 0; event < kEventCount; ++event) {
-    const Events bit = 1U << event;
-    if ((events & bit) == 0) continue;
-    for (std::size_t i = kDispatch.first[event]; i < kDispatch.first[event + 1]; ++i) {
-      const std::size_t place = kDispatch.rows[i];
-      const RtexRule& rule = kRules[place];
-      if ((rule.events & done) != 0) continue;  // it ran for an earlier event of this block
-      if (rule.row.needs_every_cycle && ring_.sampled) continue;
-      if (rule.scope == Scope::kChannel && scene.channel == nullptr) continue;
-      if (rule.scope == Scope::kNode && scene.node == nullptr) continue;
-      // A node's rules see a command block once, not once a channel.
-      if (rule.scope == Scope::kNode && bit == kActiveCommand && scene.channel != nullptr) continue;
-      scene.rule = id_of(place);
-      scene.owner = rule.scope == Scope::kRing   ? ring_.owner
-                    : rule.scope == Scope::kNode ? scene.node->owner
-                                                 : scene.channel->owner;
-      const Outcome outcome = rule.check(scene);
-      if (outcome == Outcome::kSilent) continue;
-      ring_.findings.checked(scene.rule);
-      if (outcome == Outcome::kPassed) ring_.findings.calm(scene.owner, scene.rule);
-    }
-    done |= bit;
+void Engine::run(Scene& scene, Events events) { run_rows(kDispatch, scene, events); }
+
+// The checks of a quiet block whose outcome may change all the same.
+void Engine::judge_unsteady(const Context& context, Node& node, std::uint32_t block_at, Events events) {
+  if ((kUnsteady.events & events) == 0) return;
+  Scene scene = ring_scene(context);
+  scene.node = &node;
+  scene.block_at = block_at;
+  node.quiet.raised = false;
+  run_rows(kUnsteady, scene, events & ~kAnswer);
+  for (ChannelState& channel : node.channels) {
+    if (channel.id == Channel::kSub && !node.wide) continue;
+    scene.channel = &channel;
+    run_rows(kUnsteady, scene, events & (kActiveCommand | kAnswer));
   }
+  if (node.quiet.raised) wake(node);
+}
+
+// The rules of a command record. Where every block of it was quiet, the steady ones find what they found before.
+void Engine::judge_command_record(const Context& context) {
+  Scene scene = ring_scene(context);
+  ring_.record_raised = false;
+  if (ring_.awake == 0 && ring_.record_quiet) {
+    for (const std::uint8_t row : ring_.record_passed) ring_.findings.checked(id_of(row));
+    run_rows(kUnsteady, scene, kCommandRecord);
+    return;
+  }
+  ring_.record_passed.clear();
+  scene.passed = &ring_.record_passed;
+  run_rows(kDispatch, scene, kCommandRecord);
+  ring_.record_quiet = ring_.awake == 0 && !ring_.record_raised;
 }
 
 // For what the engine itself finds: the same as a check that raised.
@@ -94,13 +137,17 @@ void Engine::push(const Context& context, const RecordPlace& place) {
   if (order == Order::kNext && !header.response) {
     std::uint32_t at = header.header_length;
     for (unsigned i = 0; i < header.node_count; ++i) {
-      if (read(slot(kCommand, "cyclic_command"), record.subspan(at)) != 0) all_nop = false;
+      if (read(slot(kCommand, "cyclic_command"), record.subspan(at)) != 0) {
+        all_nop = false;
+        break;
+      }
       at += static_cast<std::uint32_t>(header.size(i));
     }
     take_command_record(context, header, all_nop);
   }
   std::uint32_t at = header.header_length;
   bool answered = false;
+  ring_.awake = 0;
   for (unsigned i = 0; i < header.node_count; ++i) {
     const BlockSize size = header.size(i);
     const Bytes block = record.subspan(at, static_cast<std::size_t>(size));
@@ -109,9 +156,10 @@ void Engine::push(const Context& context, const RecordPlace& place) {
     node.wide = size == BlockSize::kWide;
     if (order == Order::kNext) {
       if (header.response) {
-        push_response(context, node, block, block_at, size);
+        if (!node.quiet.armed || !quick_response(context, node, block, block_at))
+          push_response(context, node, block, block_at, size);
         answered = answered || node.answered;
-      } else {
+      } else if (!node.quiet.armed || !quick_command(context, node, block, block_at)) {
         push_command(context, node, block, block_at, size);
       }
     }
@@ -139,6 +187,10 @@ void Engine::decode(const Context& context, const Node& node, Bytes block, std::
                block_at, ref, response ? Direction::kResponse : Direction::kCommand, *context.dissection);
 }
 
-void Engine::finish(const Context&) {}
+void Engine::finish(const Context&) {
+  for (const auto& node : ring_.nodes) {
+    if (node != nullptr) wake(*node);
+  }
+}
 
 }  // namespace servotrace::rtex

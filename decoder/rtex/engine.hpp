@@ -62,6 +62,7 @@ class Engine {
   void judge_step(Scene& scene, std::uint8_t before);
   void judge_misses(Scene& scene);
   void judge_between(Scene& scene);
+  static bool judges_between(const Node& node);
   void judge_echo(Scene& scene, bool identical);
   void learn_ratio(const Context& context);
   void decide_ratio(const Context& context);
@@ -77,6 +78,18 @@ class Engine {
   // engine.cpp
   void report(Scene& scene, RuleId rule, OwnerId owner, Report given);
   void run(Scene& scene, Events events);
+  void judge_unsteady(const Context& context, Node& node, std::uint32_t block_at, Events events);
+  void judge_command_record(const Context& context);
+
+  // quiet.cpp: blocks that say nothing new. The quick ones, of armed nodes, return false, and have changed nothing,
+  // where the block is to be judged in full.
+  bool quick_command(const Context& context, Node& node, Bytes block, std::uint32_t block_at);
+  bool quick_response(const Context& context, Node& node, Bytes block, std::uint32_t block_at);
+  void wake(Node& node);
+  static void end_full_command(Node& node, bool same);
+  void end_full_response(Node& node, bool same);
+  bool ring_is_settled() const;
+  static bool same_but_counter(Bytes block, const std::array<std::uint64_t, 4>& raw, BlockSize size);
 
   Ring ring_;
 };

@@ -174,13 +174,14 @@ void Engine::judge_withheld(Scene& scene, ChannelState& channel) {
 
 // Time went on: on every record, for every channel that waits for something.
 void Engine::judge_deadlines(const Context& context) {
-  if (!context.frame.has_time) return;
+  if (!context.frame.has_time || ring_.awake == 0) return;  // what is quiet waits for nothing
   const Limits& limits = ring_.settings.limits;
   for (const auto& entry : ring_.all()) {
     if (entry == nullptr) continue;
     Node& node = *entry;
     for (ChannelState& channel : node.channels) {
       if (channel.id == Channel::kSub && !node.wide) break;
+      if (!channel.withheld.waiting && !channel.process.busy) continue;
       Scene scene = ring_scene(context);
       scene.node = &node;
       scene.channel = &channel;

@@ -8,6 +8,7 @@ Outcome Scene::raise(Report report) {
   report.rule = rule;
   report.owner = owner;
   const bool fresh = ring.findings.raise(context.frame, report);
+  (node != nullptr ? node->quiet.raised : ring.record_raised) = true;
   if (node != nullptr && rule_row(rule).actor == Actor::kMaster) remember(fresh);
   return Outcome::kRaised;
 }

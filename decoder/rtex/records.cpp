@@ -133,6 +133,8 @@ void Engine::next_cycle(const Context& context) {
     }
     for (const auto& node : ring_.all()) {
       if (node == nullptr) continue;
+      wake(*node);
+      node->quiet.response_streak = 0;
       node->response_comparable = false;
       node->response_chain = false;
       node->same_responses = 0;
@@ -161,8 +163,11 @@ void Engine::restart_comparisons() {
   ring_.tmg_known = ring_.tmg_phase = false;
   ring_.first_interval_time = 0;
   ring_.intervals = 0;
+  ring_.record_quiet = false;
   for (const auto& node : ring_.nodes) {
     if (node == nullptr) continue;
+    wake(*node);
+    node->quiet.command_streak = node->quiet.response_streak = 0;
     node->command_chain = node->response_chain = false;
     node->comparable = node->response_comparable = false;
     node->mode_known = false;
@@ -339,8 +344,7 @@ void Engine::end_command_record(const Context& context) {
     for (const auto& node : ring_.all()) all_off = all_off && node != nullptr && !node->servo_on_sent;
     if (all_off) ring_.ever_lost = false;
   }
-  Scene scene = ring_scene(context);
-  run(scene, kCommandRecord);
+  judge_command_record(context);
   learn_ratio(context);
   if (ring_.reset_sent) {
     ring_.reset_sent = false;

@@ -17,20 +17,18 @@ Ring::Ring(const Settings& given, const BusRef& bus_ref, Findings& list)
   if (given.rtex.full_sync) full_sync = {*given.rtex.full_sync ? 1 : 0, {BasisKind::kConfigured, 0}};
 }
 
-Node& Ring::node(unsigned place) {
+Node& Ring::make_node(unsigned place) {
   std::unique_ptr<Node>& entry = nodes[place];
-  if (entry == nullptr) {
-    entry = std::make_unique<Node>();
-    entry->place = static_cast<std::uint8_t>(place);
-    entry->ref = NodeRef{.bus = bus, .protocol = Protocol::kRtex, .place = entry->place};
-    entry->owner = findings.owner(entry->ref);
-    entry->channels[0].id = Channel::kMain;
-    entry->channels[1].id = Channel::kSub;
-    for (ChannelState& channel : entry->channels) {
-      NodeRef ref = entry->ref;
-      ref.channel = channel.id;
-      channel.owner = findings.owner(ref);
-    }
+  entry = std::make_unique<Node>();
+  entry->place = static_cast<std::uint8_t>(place);
+  entry->ref = NodeRef{.bus = bus, .protocol = Protocol::kRtex, .place = entry->place};
+  entry->owner = findings.owner(entry->ref);
+  entry->channels[0].id = Channel::kMain;
+  entry->channels[1].id = Channel::kSub;
+  for (ChannelState& channel : entry->channels) {
+    NodeRef ref = entry->ref;
+    ref.channel = channel.id;
+    channel.owner = findings.owner(ref);
   }
   return *entry;
 }

@@ -14,6 +14,7 @@
 #include "decoder/pipeline/context.hpp"
 #include "decoder/rtex/knowledge.hpp"
 #include "decoder/rtex/machines.hpp"
+#include "decoder/rtex/quiet.hpp"
 #include "decoder/rtex/views.hpp"
 
 namespace servotrace::rtex {
@@ -174,7 +175,7 @@ struct Node {
   std::int64_t mode_change_cycle = 0;
   std::uint64_t mode_change_frame = 0;
   std::uint64_t command_frame = 0, previous_frame = 0;
-  std::uint8_t open_command = 0, open_response = 0;  // not 0: a condition lasts, no short cut
+  Quiet quiet;
 
   // Responses
   bool response_written = false;
@@ -286,13 +287,22 @@ struct Ring {
   std::array<std::unique_ptr<Node>, kMaxNodes> nodes;
   Durations cycle_times;
 
+  unsigned awake = 0;         // blocks of this record judged in full
+  bool record_quiet = false;  // the rules of the last command record passed, of blocks that are all quiet or as before
+  bool record_raised = false;
+  PassedRows record_passed;
+
   // Software reset (6-3-1)
   bool reset_sent = false;      // in this record a node went back from an echoed reset command
   bool reset_reported = false;  // RX601, once a reset
   bool last_all_nop = false;    // the command record before was NOP for every node
   bool awaiting_start = false;  // after a reset: what the memories hold is old until the ring starts again
 
-  Node& node(unsigned place);
+  Node& node(unsigned place) {
+    Node* const known = nodes[place].get();
+    return known != nullptr ? *known : make_node(place);
+  }
+  Node& make_node(unsigned place);
   std::span<const std::unique_ptr<Node>> all() const { return std::span(nodes).first(node_count); }
 };
 

@@ -22,6 +22,7 @@ struct Scene {
   RuleId rule{};               // of the check that runs
   OwnerId owner{};
   Moment now;
+  PassedRows* passed = nullptr;  // where the rows that pass are noted
 
   const Limits& limits() const { return ring.settings.limits; }
   // Bytes of the block, for highlighting.

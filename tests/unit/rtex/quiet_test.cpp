@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+// The short cut for blocks that say nothing new changes no finding and no count: everything is judged twice, with the
+// short cut and without it.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <random>
+
+#include "decoder/findings/catalogue.hpp"
+#include "decoder/link/rtex_record.hpp"
+#include "decoder/pipeline/pipeline.hpp"
+#include "decoder/rtex/layouts.hpp"
+#include "tests/support/scenarios.hpp"
+#include "tests/support/traffic.hpp"
+
+namespace servotrace::test {
+namespace {
+
+using Frames = std::vector<simulator::SimulatedFrame>;
+
+Pipeline judge(const simulator::Simulation& simulation, Settings settings, bool every_block) {
+  settings.judge_every_block = every_block;
+  Pipeline pipeline(settings);
+  std::uint64_t number = 0;
+  for (const simulator::SimulatedFrame& frame : simulation.frames) {
+    pipeline.push({.number = ++number,
+                   .time_ns = frame.time_ns,
+                   .link_type = simulation.interfaces[frame.interface_id].link_type,
+                   .interface_id = frame.interface_id,
+                   .bytes = frame.bytes,
+                   .original_length = frame.original_length});
+  }
+  pipeline.finish();
+  return pipeline;
+}
+
+std::string text(const Finding& finding) {
+  std::string result =
+      std::string(rule_row(finding.rule).id) + " frame " + std::to_string(finding.frame) + ".." +
+      std::to_string(finding.last_frame) + " x" + std::to_string(finding.count) + " severity " +
+      std::to_string(static_cast<int>(finding.severity)) + " place " + std::to_string(finding.node.place) + " mac " +
+      std::to_string(finding.node.mac_id) + " channel " + std::to_string(static_cast<int>(finding.node.channel)) +
+      " bytes " + std::to_string(finding.where.offset) + "+" + std::to_string(finding.where.length) + " basis " +
+      std::to_string(static_cast<int>(finding.basis.kind)) + "@" + std::to_string(finding.basis.frame) + " cause " +
+      std::to_string(finding.cause.frame) + " related";
+  for (const std::uint64_t related : finding.related) result += " " + std::to_string(related);
+  result += " arguments";
+  for (const std::int64_t argument : finding.arguments) result += " " + std::to_string(argument);
+  return result;
+}
+
+void expect_same(const simulator::Simulation& simulation, const Settings& settings = {}) {
+  const Pipeline full = judge(simulation, settings, true);
+  const Pipeline quick = judge(simulation, settings, false);
+  const std::span<const Finding> expected = full.findings().all();
+  const std::span<const Finding> found = quick.findings().all();
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i) EXPECT_EQ(text(found[i]), text(expected[i]));
+  for (std::size_t i = 0; i < kRuleCount; ++i) {
+    const auto rule = static_cast<RuleId>(i);
+    EXPECT_EQ(quick.findings().times_checked(rule), full.findings().times_checked(rule)) << rule_row(rule).id;
+    EXPECT_EQ(quick.findings().total(rule), full.findings().total(rule)) << rule_row(rule).id;
+  }
+}
+
+TEST(QuietBlocks, EveryScenarioSaysTheSame) {
+  for (const std::filesystem::path& path : scenario_files()) {
+    SCOPED_TRACE(path.stem().string());
+    const simulator::Scenario scenario = load_scenario(path);
+    expect_same(simulate_scenario(scenario), settings_of(scenario));
+  }
+}
+
+TEST(QuietBlocks, QuietTrafficSaysTheSame) {
+  expect_same(make_traffic(rtex_traffic({.axes = 1, .cycle_us = 83.333, .cycles = 600})));
+  expect_same(make_traffic(rtex_traffic({.axes = 5, .cycle_us = 166.667, .cycles = 600})));
+  expect_same(make_traffic(rtex_traffic({.axes = 3, .cycle_us = 1000, .wide = true, .cycles = 600})));
+  expect_same(make_traffic(rtex_traffic({.axes = 2, .cycle_us = 500, .cycles = 600, .handshakes = true})));
+}
+
+// What may happen to a record of a quiet ring, at a random place.
+using Disturbance = std::function<void(Frames&, std::size_t, std::mt19937&)>;
+
+constexpr std::size_t kTags = 12;  // bytes of the exported PDU's tags before the record
+constexpr std::size_t kBlocks = kTags + rtex::kRecord.size;
+
+void flip_bit(Frames& frames, std::size_t at, std::mt19937& random) {
+  std::vector<std::uint8_t>& bytes = frames[at].bytes;
+  const std::size_t place = kBlocks + random() % (bytes.size() - kBlocks);
+  bytes[place] = static_cast<std::uint8_t>(bytes[place] ^ (1U << random() % 8));
+}
+// A status or command bit that stays for a while.
+void hold_bit(Frames& frames, std::size_t at, std::mt19937& random) {
+  const std::size_t place = kBlocks + random() % (frames[at].bytes.size() - kBlocks);
+  const auto bit = static_cast<std::uint8_t>(1U << random() % 8);
+  const std::size_t end = std::min(frames.size(), at + 2 * (1 + random() % 60));
+  for (std::size_t i = at; i < end; i += 2) {
+    if (place < frames[i].bytes.size())
+      frames[i].bytes[place] = static_cast<std::uint8_t>(frames[i].bytes[place] ^ bit);
+  }
+}
+void lose(Frames& frames, std::size_t at, std::mt19937& random) {
+  const auto count = static_cast<std::ptrdiff_t>(1 + random() % 3);
+  const auto first = frames.begin() + static_cast<std::ptrdiff_t>(at);
+  frames.erase(first, first + std::min(count, frames.end() - first));
+}
+void repeat(Frames& frames, std::size_t at, std::mt19937&) {
+  const simulator::SimulatedFrame copy = frames[at];
+  frames.insert(frames.begin() + static_cast<std::ptrdiff_t>(at), copy);
+}
+// The response of the cycle before stays in the memory.
+void go_stale(Frames& frames, std::size_t at, std::mt19937& random) {
+  const std::size_t count = 1 + random() % 12;
+  for (std::size_t i = at; i < std::min(frames.size(), at + 2 * count); i += 2) {
+    if (i < 2 || frames[i].bytes.size() != frames[i - 2].bytes.size()) return;
+    std::copy(frames[i - 2].bytes.begin() + kBlocks, frames[i - 2].bytes.end(), frames[i].bytes.begin() + kBlocks);
+  }
+}
+void pause(Frames& frames, std::size_t at, std::mt19937& random) {
+  const auto by_ns = static_cast<DurationNs>(random() % 4'000'000);
+  for (std::size_t i = at; i < frames.size(); ++i) frames[i].time_ns += by_ns;
+}
+void cut(Frames& frames, std::size_t at, std::mt19937& random) {
+  frames[at].bytes.resize(frames[at].bytes.size() - 1 - random() % 16);
+}
+void blank(Frames& frames, std::size_t at, std::mt19937&) {
+  std::fill(frames[at].bytes.begin() + kBlocks, frames[at].bytes.end(), std::uint8_t{0});
+}
+
+TEST(QuietBlocks, DisturbedTrafficSaysTheSame) {
+  const Disturbance all[] = {flip_bit, hold_bit, lose, repeat, go_stale, pause, cut, blank};
+  const RtexTraffic kinds[] = {
+      {.axes = 2, .cycle_us = 83.333, .cycles = 500},
+      {.axes = 2, .cycle_us = 166.667, .cycles = 500},
+      {.axes = 2, .cycle_us = 1000, .wide = true, .cycles = 500},
+  };
+  for (const RtexTraffic& kind : kinds) {
+    const simulator::Simulation whole = make_traffic(rtex_traffic(kind));
+    for (std::uint32_t seed = 0; seed < 64; ++seed) {
+      SCOPED_TRACE("cycle " + std::to_string(kind.cycle_us) + ", seed " + std::to_string(seed));
+      std::mt19937 random(seed);
+      simulator::Simulation disturbed = whole;
+      for (int i = 0; i < 4; ++i) {
+        const std::size_t at = disturbed.frames.size() / 2 + random() % (disturbed.frames.size() / 2);
+        all[(seed + static_cast<std::uint32_t>(i) * (1 + random() % 3)) % std::size(all)](disturbed.frames, at, random);
+      }
+      expect_same(disturbed);
+      if (HasFailure()) return;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace servotrace::test
