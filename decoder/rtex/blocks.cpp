@@ -62,7 +62,7 @@ void Engine::push_command(const Context& context, Node& node, Bytes block, std::
   Scene scene = ring_scene(context);
   scene.node = &node;
   scene.block_at = block_at;
-  scene.passed = &node.quiet.command_passed;
+  if (node.quiet.command_streak + 1U >= kQuietStreak) scene.passed = &node.quiet.command_passed;
   node.quiet.command_passed.clear();
   node.quiet.raised = false;
   Events events = kCommandBlock;
@@ -141,7 +141,7 @@ void Engine::push_response(const Context& context, Node& node, Bytes block, std:
   Scene scene = ring_scene(context);
   scene.node = &node;
   scene.block_at = block_at;
-  scene.passed = &node.quiet.response_passed;
+  if (node.quiet.response_streak + 1U >= kQuietStreak) scene.passed = &node.quiet.response_passed;
   node.quiet.response_passed.clear();
   node.quiet.raised = false;
   Events events = kResponseBlock;

@@ -9,58 +9,84 @@
 namespace servotrace::rtex {
 namespace {
 
-// The rows of kRules that have a check, by event: built by the compiler.
-struct Dispatch {
-  std::array<std::uint8_t, kRules.size()* 4> rows = {};
-  std::array<std::uint16_t, kEventCount + 1> first = {};
-  Events events = kNoEvent;  // that have rows
+// A row of kRules that has a check, with what running it takes: the rows themselves are long.
+struct Entry {
+  Check check = nullptr;
+  Events earlier = kNoEvent;  // events of the row that come before this one
+  RuleId rule{};
+  std::uint8_t row = 0;
+  Scope scope = Scope::kNode;
+  bool needs_every_cycle = false;
 };
+
+// Of whom something happened.
+enum class Level : std::uint8_t { kRing, kNode, kChannel };
+constexpr std::size_t kLevels = 3;
+
+// The entries by event and level, in the order of the catalogue: built by the compiler.
+struct Dispatch {
+  std::array<Entry, kRules.size()* 8> entries = {};
+  std::array<std::uint16_t, kEventCount* kLevels + 1> first = {};
+  Events events = kNoEvent;  // that have entries
+};
+constexpr bool runs_at(Scope scope, Level level, unsigned event) {
+  if (scope == Scope::kRing) return true;
+  if (scope == Scope::kChannel) return level == Level::kChannel;
+  // A node's rules see a command block once, not once a channel.
+  return level == Level::kNode || (level == Level::kChannel && (1U << event) != kActiveCommand);
+}
+constexpr RuleId kFirstRule = rule("RX101");
 consteval Dispatch make_dispatch(bool steady_too) {
   Dispatch table{};
   std::size_t next = 0;
   for (unsigned event = 0; event < kEventCount; ++event) {
-    table.first[event] = static_cast<std::uint16_t>(next);
-    for (std::size_t row = 0; row < kRules.size(); ++row) {
-      if ((kRules[row].events >> event & 1U) == 0 || (!steady_too && is_steady(kRules[row].row.id))) continue;
-      table.rows[next++] = static_cast<std::uint8_t>(row);
-      table.events |= 1U << event;
+    for (std::size_t level = 0; level < kLevels; ++level) {
+      table.first[event * kLevels + level] = static_cast<std::uint16_t>(next);
+      for (std::size_t row = 0; row < kRules.size(); ++row) {
+        const RtexRule& rule = kRules[row];
+        if ((rule.events >> event & 1U) == 0 || !runs_at(rule.scope, static_cast<Level>(level), event)) continue;
+        if (!steady_too && is_steady(rule.row.id)) continue;
+        table.entries[next++] = {rule.check,
+                                 rule.events & ((1U << event) - 1U),
+                                 static_cast<RuleId>(static_cast<std::size_t>(kFirstRule) + row),
+                                 static_cast<std::uint8_t>(row),
+                                 rule.scope,
+                                 rule.row.needs_every_cycle};
+        table.events |= 1U << event;
+      }
     }
   }
-  table.first[kEventCount] = static_cast<std::uint16_t>(next);
+  table.first[kEventCount * kLevels] = static_cast<std::uint16_t>(next);
   return table;
 }
 constexpr Dispatch kDispatch = make_dispatch(true);
 constexpr Dispatch kUnsteady = make_dispatch(false);  // what a quiet block is judged by
 static_assert(kRules.size() < 256);
 
-// The rows of `table` at these events.
+// The entries of `table` at these events.
 void run_rows(const Dispatch& table, Scene& scene, Events events) {
   Ring& ring = scene.ring;
+  const Level level = scene.node == nullptr ? Level::kRing : scene.channel == nullptr ? Level::kNode : Level::kChannel;
+  const OwnerId owners[] = {ring.owner, scene.node == nullptr ? ring.owner : scene.node->owner,
+                            scene.channel == nullptr ? ring.owner : scene.channel->owner};
   Events done = 0;
   for (Events rest = events & table.events; rest != 0; rest &= rest - 1U) {
     const auto event = static_cast<unsigned>(std::countr_zero(rest));
-    const Events bit = 1U << event;
-    for (std::size_t i = table.first[event]; i < table.first[event + 1]; ++i) {
-      const std::size_t place = table.rows[i];
-      const RtexRule& rule = kRules[place];
-      if ((rule.events & done) != 0) continue;  // it ran for an earlier event of this block
-      if (rule.row.needs_every_cycle && ring.sampled) continue;
-      if (rule.scope == Scope::kChannel && scene.channel == nullptr) continue;
-      if (rule.scope == Scope::kNode && scene.node == nullptr) continue;
-      // A node's rules see a command block once, not once a channel.
-      if (rule.scope == Scope::kNode && bit == kActiveCommand && scene.channel != nullptr) continue;
-      scene.rule = id_of(place);
-      scene.owner = rule.scope == Scope::kRing   ? ring.owner
-                    : rule.scope == Scope::kNode ? scene.node->owner
-                                                 : scene.channel->owner;
-      const Outcome outcome = rule.check(scene);
+    const std::size_t list = event * kLevels + static_cast<std::size_t>(level);
+    const Entry* const end = table.entries.data() + table.first[list + 1];
+    for (const Entry* entry = table.entries.data() + table.first[list]; entry != end; ++entry) {
+      if ((entry->earlier & done) != 0) continue;  // it ran for an earlier event of this block
+      if (entry->needs_every_cycle && ring.sampled) continue;
+      scene.rule = entry->rule;
+      scene.owner = owners[static_cast<std::size_t>(entry->scope)];
+      const Outcome outcome = entry->check(scene);
       if (outcome == Outcome::kSilent) continue;
-      ring.findings.checked(scene.rule);
+      ring.findings.checked(entry->rule);
       if (outcome != Outcome::kPassed) continue;
-      ring.findings.calm(scene.owner, scene.rule);
-      if (scene.passed != nullptr) scene.passed->push_back(static_cast<std::uint8_t>(place));
+      ring.findings.calm(scene.owner, entry->rule);
+      if (scene.passed != nullptr) scene.passed->push_back(entry->row);
     }
-    done |= bit;
+    done |= 1U << event;
   }
 }
 
