@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "decoder/link/rtex_record.hpp"
 
+#include <array>
 #include <bit>
 
 namespace servotrace::rtex {
@@ -18,6 +19,11 @@ Payload exported_pdu(Bytes bytes) {
   constexpr std::uint32_t kTagEnd = 0;
   constexpr std::uint32_t kTagDissectorName = 12;
   constexpr std::string_view kName = "rtex";
+  // The tags as nearly every record has them: the name and the end, no more.
+  constexpr std::array<std::uint8_t, 12> kUsual = {0, kTagDissectorName, 0, 4, 'r', 't', 'e', 'x', 0, kTagEnd, 0, 0};
+  constexpr std::uint64_t kUsualFirst = load_le64(kUsual, 0);
+  if (bytes.size() >= kUsual.size() && load_le64(bytes, 0) == kUsualFirst && load_le(bytes, 8, 4) == kTagEnd)
+    return {Carrier::kExportedPdu, kUsual.size()};
   bool is_rtex = false;
   std::size_t at_tag = 0;
   while (at_tag + 4 <= bytes.size()) {
