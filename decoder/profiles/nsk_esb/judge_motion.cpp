@@ -71,7 +71,7 @@ void Session::judge_start(const Context& context, const Message& message, const 
                       .arguments = {what, input.number, output_->ack_prg},
                       .where = where,
                       .related = {state},
-                      .as_note = kind == StartKind::kRun && program_runs && !running.known});
+                      .as_note = kind == StartKind::kRun && program_runs && !running.is_certain()});
     }
   }
 

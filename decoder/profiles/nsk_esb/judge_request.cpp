@@ -213,7 +213,7 @@ void Session::take_result(const Context& context, const Message& message, const 
 void Session::learn(const Context& context, const Output& output) {
   const std::int64_t number = transaction_.number;
   if (number >= kFirstParameter && number <= kLastParameter) {
-    known_[static_cast<std::size_t>(number)] = {true, transaction_.write ? transaction_.data : output.data,
+    known_[static_cast<std::size_t>(number)] = {true, true, transaction_.write ? transaction_.data : output.data,
                                                 context.frame.number};
     if (transaction_.write && number == kDirectionInversion) {
       inversion_frame_ = context.frame.number;
@@ -271,6 +271,7 @@ void Session::learn_program(const Context& context, const Output& output) {
           edit_begins_ = false;
           channel.steps.clear();
           channel.known = true;
+          channel.doubted = false;
         }
         Programs::write(channel, {transaction_.number, transaction_.data});
         if (channel.steps.dropped() != 0) channel.known = false;

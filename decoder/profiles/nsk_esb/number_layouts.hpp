@@ -6,7 +6,8 @@
 #pragma once
 
 #include "decoder/core/layout_check.hpp"
-#include "decoder/profiles/nsk_esb/numbers.hpp"
+#include "decoder/profiles/nsk_esb/alarms.hpp"
+#include "decoder/profiles/nsk_esb/number_facts.hpp"
 
 namespace servotrace::esb {
 
@@ -45,7 +46,7 @@ consteval auto number_fields() {
                       .scale = row.scale,
                       .values = row.values,
                       .section = row.section,
-                      .explanation = row.name};
+                      .explanation = kNumberFacts[i].view()};
     // A single range without holes is shown as such; the others are the rules' business.
     if (row.has_range() && !row.or_zero && row.second.minimum == 0 && row.second.maximum == 0) {
       fields[i].range = row.range;
@@ -68,6 +69,45 @@ consteval auto number_layouts() {
   return layouts;
 }
 
+// The signals of the input/output monitors in words.
+struct SignalWords {
+  std::string_view label;
+  std::string_view words;
+};
+inline constexpr SignalWords kSignalWords[] = {
+    {"SVON", "Servo on"},
+    {"EMST", "Emergency stop"},
+    {"RUN", "Start programmable indexer"},
+    {"STP", "Decelerates to stop"},
+    {"CLR", "Clear"},
+    {"IOFF", "Integration off, or clamp cancel"},
+    {"HOS", "Home return start"},
+    {"ORD", "Override"},
+    {"JOG", "Jog start"},
+    {"DIR", "Jog direction"},
+    {"HLS", "Home position limit sensor"},
+    {"OTP", "+ over-travel limit"},
+    {"OTM", "- over-travel limit"},
+    {"DRDY", "Driver unit ready"},
+    {"OVER", "Warning"},
+    {"IPOS", "In position"},
+    {"BUSY", "Processing generated pulses"},
+    {"BRK", "Brake, or brake control signal"},
+    {"HCMP", "Home position defined"},
+    {"HOME", "Home return completed"},
+    {"SPD", "Velocity threshold"},
+    {"NEARA", "Target proximity / in target A"},
+    {"NEARB", "Target proximity / in target B"},
+};
+constexpr std::string_view signal_words(std::string_view label) {
+  for (const SignalWords& row : kSignalWords) {
+    if (row.label == label) return row.words;
+  }
+  if (label.starts_with("PRG")) return "Program channel select, one bit of six";
+  if (label.starts_with("ACK_PRG")) return "Move / program channel, one bit of six";
+  return "Always 0";
+}
+
 // One bit a row, from bit 0 on; behind them the bits that mean nothing.
 struct BitName {
   std::string_view key;
@@ -82,7 +122,8 @@ consteval auto bit_fields(const BitName (&names)[kBits], std::string_view rest_k
                       .first_bit = static_cast<std::uint16_t>(i),
                       .width = 1,
                       .kind = Kind::kBool,
-                      .section = kMonitorSection};
+                      .section = kMonitorSection,
+                      .explanation = signal_words(names[i].label)};
   }
   fields[kBits] = Field{.key = rest_key,
                         .label = "(unused)",
@@ -130,11 +171,18 @@ inline constexpr BitName kAlarmBits[] = {
     {"ta_a2", "A2"}, {"ta_a3", "A3"}, {"ta_a4", "A4"}, {"ta_a5", "A5"}, {"ta_a6", "A6"}, {"ta_a7", "A7"},
     {"ta_p0", "P0"}, {"ta_p1", "P1"}, {"ta_p2", "P2"}, {"ta_p3", "P3"}, {"ta_p4", "P4"}, {"ta_p5", "P5"},
     {"ta_p6", "P6"}, {"ta_p7", "P7"}};
+// "F1 Excess position error"; a bit that names no alarm of Table 4-12 by its place alone.
+constexpr std::string_view alarm_label(std::size_t bit) {
+  for (std::size_t i = 0; i < kAlarms.size(); ++i) {
+    if (kAlarms[i].word_bit == static_cast<int>(bit)) return kAlarmNames[i].name;
+  }
+  return kAlarmBits[bit].label;
+}
 consteval auto alarm_fields() {
   std::array<Field, std::size(kAlarmBits)> fields{};
   for (std::size_t i = 0; i < fields.size(); ++i) {
     fields[i] = Field{.key = kAlarmBits[i].key,
-                      .label = kAlarmBits[i].label,
+                      .label = alarm_label(i),
                       .first_bit = static_cast<std::uint16_t>(i),
                       .width = 1,
                       .kind = Kind::kBool,

@@ -36,7 +36,7 @@ void Programs::write(Channel& channel, Step step) {
 Programs::Start Programs::start_of(std::uint8_t number) const {
   for (std::size_t hops = 0; hops < kChannels; ++hops) {
     const Channel& at = channel(number);
-    if (!at.known) return Start::kUnknown;
+    if (!at.is_certain()) return Start::kUnknown;
     std::int32_t sequence = 0;
     bool jumps = false;
     for (const Step& step : at.steps) {

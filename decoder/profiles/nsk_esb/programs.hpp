@@ -24,9 +24,11 @@ struct Step {
 
 struct Channel {
   bool known = false;       // all of it is in `steps` (an empty channel has none)
+  bool doubted = false;     // records were lost since: it may have been written anew
   std::uint64_t frame = 0;  // that showed it
   SmallVector<Step, kMaxSteps> steps;
 
+  bool is_certain() const { return known && !doubted; }
   // True where a line of it waits for RUN (661 = 2).
   bool waits_for_run() const;
 };
@@ -51,6 +53,9 @@ class Programs {
   Channel& channel(std::uint8_t number) { return channels_[number % kChannels]; }
   const Channel& channel(std::uint8_t number) const { return channels_[number % kChannels]; }
   void forget() { channels_ = {}; }
+  void doubt() {
+    for (Channel& channel : channels_) channel.doubted = true;
+  }
 
   // A program command begins a line; an optional code replaces its like in the last line, or deletes it with 0.
   static void write(Channel& channel, Step step);
@@ -63,7 +68,7 @@ class Programs {
   std::array<Channel, kChannels> channels_{};
 };
 
-using Listing = Text<512>;
+using Listing = Text<1024>;
 // "CH5: AD/PL9000&, CV1.5000, CA10.00"; lines are parted by "; "; "CH5: (empty)".
 void append_listing(Listing& text, std::uint8_t number, const Channel& channel);
 // One number with its data, "VG45.0"; a number without a mnemonic by its name.

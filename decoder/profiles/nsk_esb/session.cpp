@@ -80,6 +80,9 @@ void Session::on_gap() {
   program_session_ = ProgramSession::kUnknown;
   runs_ = Runs::kUnknown;
   busy_awaited_ = false;
+  // A write may be among what was lost: what is shown stays, what is judged is not known any more.
+  for (Known& entry : known_) entry.certain = false;
+  programs_.doubt();
 }
 
 void Session::on_finish(const Context& context) {

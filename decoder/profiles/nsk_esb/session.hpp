@@ -74,6 +74,7 @@ class Session final : public DriveBase {
   enum class Runs : std::uint8_t { kUnknown, kProgram, kOther };
   struct Known {
     bool known = false;
+    bool certain = false;  // and no record was lost since
     std::int32_t value = 0;
     std::uint64_t frame = 0;
   };
@@ -124,7 +125,7 @@ class Session final : public DriveBase {
   std::uint64_t fitting(const PendingReport& report, std::int64_t word) const;
 
   const std::int32_t* known_value(std::int64_t number) const {
-    return number >= 0 && number < std::int64_t{kKnownNumbers} && known_[static_cast<std::size_t>(number)].known
+    return number >= 0 && number < std::int64_t{kKnownNumbers} && known_[static_cast<std::size_t>(number)].certain
                ? &known_[static_cast<std::size_t>(number)].value
                : nullptr;
   }

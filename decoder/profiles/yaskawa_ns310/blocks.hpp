@@ -219,7 +219,8 @@ class Blocks {
   std::array<Block, 256> blocks_{};
 };
 
-using BlockText = Text<1024>;
+// Room for a chain of all 255 blocks.
+using BlockText = Text<32'768>;
 // "block 1: trajectory and wait, target_position 128000, target_speed 8000, incremental 0, then 2".
 void append_block(BlockText& text, std::uint8_t number, const Block& block);
 // The chain from `number` on, link by link.

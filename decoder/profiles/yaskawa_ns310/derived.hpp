@@ -12,6 +12,11 @@ inline constexpr Field kBlockListing{
     .kind = Kind::kText,
     .section = "SIE-C718-7 5.5",
     .explanation = "A block, or the chain a start begins, as far as the capture shows it."};
+inline constexpr Field kBlockAttribute{.key = "block_attribute",
+                                       .label = "Command block attribute",
+                                       .kind = Kind::kText,
+                                       .section = "SIE-C718-7 5.5.2",
+                                       .explanation = "What a single attribute means in the block's command."};
 // What Table C.1 and chapter 9 say of the alarm code of a response.
 inline constexpr Field kAlarmSgdhText{
     .key = "alarm_sgdh", .label = "SGDH alarms behind it", .kind = Kind::kText, .section = "SIE-C718-7 C.1"};
@@ -21,7 +26,7 @@ inline constexpr Field kAlarmCausesText{
     .key = "alarm_causes", .label = "Causes", .kind = Kind::kText, .section = "SIE-C718-7 9"};
 inline constexpr Field kAlarmRemediesText{
     .key = "alarm_remedies", .label = "Remedies", .kind = Kind::kText, .section = "SIE-C718-7 9"};
-inline constexpr const Field* kDerived[] = {&kBlockListing, &kAlarmSgdhText, &kAlarmIndicatorText, &kAlarmCausesText,
-                                            &kAlarmRemediesText};
+inline constexpr const Field* kDerived[] = {&kBlockListing,       &kBlockAttribute,  &kAlarmSgdhText,
+                                            &kAlarmIndicatorText, &kAlarmCausesText, &kAlarmRemediesText};
 
 }  // namespace servotrace::ns310

@@ -223,7 +223,7 @@ bool Session::into_limit(const Context& context, const Message& message, const C
                   .where = where,
                   .related = {response_->frame},
                   .basis = reference_direction_.basis,
-                  .as_warning = reference_direction_.basis.kind == BasisKind::kAssumed});
+                  .as_warning = !reference_direction_.is_known()});
   return true;
 }
 

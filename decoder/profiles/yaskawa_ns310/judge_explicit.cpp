@@ -145,8 +145,7 @@ void Session::learn_parameter(const Context& context, const ExplicitExchange& ex
 // YS401 and YS402: at a start or a Reset, or a second after the last Set, when all of a change has arrived.
 void Session::judge_pairs(const Context& context) {
   settle_pending_ = false;
-  const auto known = [](const Setting& setting) { return setting.basis.kind == BasisKind::kCapture; };
-  if (known(gear_numerator_) && known(gear_denominator_)) {
+  if (gear_numerator_.is_known() && gear_denominator_.is_known()) {
     // Both readings of their range: signed, or all 32 bits.
     const auto numerator = static_cast<std::int64_t>(static_cast<std::uint32_t>(gear_numerator_.value));
     const auto denominator = static_cast<std::int64_t>(static_cast<std::uint32_t>(gear_denominator_.value));
@@ -158,9 +157,9 @@ void Session::judge_pairs(const Context& context) {
            .basis = gear_denominator_.basis,
            .variant = numerator << 32U ^ denominator});
   }
-  if (!known(filter_)) return;
+  if (!filter_.is_known()) return;
   const auto illegal = [&](const Setting& type) {
-    return known(type) && filter_.value >= 0 && filter_.value <= 3 && type.value >= 0 && type.value <= 3 &&
+    return type.is_known() && filter_.value >= 0 && filter_.value <= 3 && type.value >= 0 && type.value <= 3 &&
            (kLegalPairs[filter_.value] >> type.value & 1U) == 0;
   };
   const bool positioning = illegal(acceleration_);
@@ -213,6 +212,7 @@ void Session::judge_block_request(const Context& context, const ExplicitExchange
     show_block(context, exchange.request, block, Direction::kCommand);
   } else {
     Blocks::set(block, attribute, exchange.request_data, true, context.frame.number);
+    show_block_attribute(context, exchange, block, exchange.request_data);
   }
   if (!all && attribute < 3) return;
   const std::int32_t* class_id = block.find(BlockValue::kClass);
@@ -246,6 +246,20 @@ void Session::show_block(const Context& context, const Message& message, const B
   if (message.bytes.size() == layout.size) add(context, message, layout, 0, direction);
 }
 
+// "Target Position 3000 steps": attributes 3 to 7 mean what the block's command says.
+void Session::show_block_attribute(const Context& context, const ExplicitExchange& exchange, const Block& block,
+                                   Bytes data) {
+  const BlockFormat* format = block.format();
+  if (context.dissection == nullptr || format == nullptr || data.empty() || exchange.attribute < 3) return;
+  const auto index = static_cast<std::size_t>(exchange.attribute) - 3;
+  if (index >= format->count) return;
+  const BlockAttribute& row = *format->attributes[index];
+  attribute_text_.clear();
+  attribute_text_ << row.name << " " << value_of(data);
+  if (row.unit != Unit::kNone) attribute_text_ << " " << symbol(row.unit);
+  add(context, kBlockAttribute, "ns310", 0, attribute_text_.view());
+}
+
 void Session::learn_block(const Context& context, const ExplicitExchange& exchange) {
   if (exchange.instance == 0 || exchange.instance > 255) return;
   const auto number = static_cast<std::uint8_t>(exchange.instance);
@@ -261,6 +275,7 @@ void Session::learn_block(const Context& context, const ExplicitExchange& exchan
       break;
     case kGet:
       Blocks::set(block, attribute, exchange.response.bytes, false, frame);
+      show_block_attribute(context, exchange, block, exchange.response.bytes);
       break;
     case kGetAll: {
       const Block before = block;

@@ -3,8 +3,8 @@
 // manual contradicts itself the row allows both readings.
 #pragma once
 
-#include "decoder/devicenet/object_layouts.hpp"
 #include "decoder/profiles/yaskawa_ns310/blocks.hpp"
+#include "decoder/profiles/yaskawa_ns310/object_facts.hpp"
 
 namespace servotrace::ns310 {
 namespace objects {
@@ -95,7 +95,9 @@ inline constexpr Attribute kIdentityAttributes[] = {
      .section = "SIE-C718-7 B.1",
      .explanation = "JUSP-NS310"},
 };
-inline constexpr auto kIdentityFields = attribute_fields(kIdentityAttributes);
+inline constexpr auto kIdentityFacts = facts_of(kIdentityAttributes);
+inline constexpr auto kIdentityFields =
+    with_facts(attribute_fields(kIdentityAttributes), kIdentityAttributes, kIdentityFacts);
 inline constexpr auto kIdentityLayouts = attribute_layouts("ns310", "identity", kIdentityAttributes, kIdentityFields);
 
 // Message Router Object, class 02h (B.2).
@@ -128,7 +130,9 @@ inline constexpr Attribute kDevicenetAttributes[] = {
      .section = "SIE-C718-7 B.3",
      .explanation = "Low byte allocation choice, high byte the master's MAC ID."},
 };
-inline constexpr auto kDevicenetFields = attribute_fields(kDevicenetAttributes);
+inline constexpr auto kDevicenetFacts = facts_of(kDevicenetAttributes);
+inline constexpr auto kDevicenetFields =
+    with_facts(attribute_fields(kDevicenetAttributes), kDevicenetAttributes, kDevicenetFacts);
 inline constexpr auto kDevicenetLayouts =
     attribute_layouts("ns310", "devicenet", kDevicenetAttributes, kDevicenetFields);
 
@@ -217,7 +221,9 @@ inline constexpr Attribute kConnectionAttributes[] = {
      .type = DataType::kBytes,
      .section = "SIE-C718-7 B.5"},
 };
-inline constexpr auto kConnectionFields = attribute_fields(kConnectionAttributes);
+inline constexpr auto kConnectionFacts = facts_of(kConnectionAttributes);
+inline constexpr auto kConnectionFields =
+    with_facts(attribute_fields(kConnectionAttributes), kConnectionAttributes, kConnectionFacts);
 inline constexpr auto kConnectionLayouts =
     attribute_layouts("ns310", "connection", kConnectionAttributes, kConnectionFields);
 
@@ -286,7 +292,9 @@ inline constexpr Attribute kSupervisorAttributes[] = {
      .unit = Unit::kStep,
      .section = "SIE-C718-7 B.6"},
 };
-inline constexpr auto kSupervisorFields = attribute_fields(kSupervisorAttributes);
+inline constexpr auto kSupervisorFacts = facts_of(kSupervisorAttributes);
+inline constexpr auto kSupervisorFields =
+    with_facts(attribute_fields(kSupervisorAttributes), kSupervisorAttributes, kSupervisorFacts);
 inline constexpr auto kSupervisorLayouts =
     attribute_layouts("ns310", "supervisor", kSupervisorAttributes, kSupervisorFields);
 
@@ -674,7 +682,9 @@ inline constexpr Attribute kPositionControllerAttributes[] = {
      .section = "SIE-C718-7 B.7, 4.3.2",
      .explanation = "One value with 64h/14."},
 };
-inline constexpr auto kPositionControllerFields = attribute_fields(kPositionControllerAttributes);
+inline constexpr auto kPositionControllerFacts = facts_of(kPositionControllerAttributes);
+inline constexpr auto kPositionControllerFields = with_facts(attribute_fields(kPositionControllerAttributes),
+                                                             kPositionControllerAttributes, kPositionControllerFacts);
 inline constexpr auto kPositionControllerLayouts =
     attribute_layouts("ns310", "position_controller", kPositionControllerAttributes, kPositionControllerFields);
 
@@ -712,7 +722,9 @@ inline constexpr Attribute kBlockSequencerAttributes[] = {
      .values = kBlockFaults,
      .section = "SIE-C718-7 B.8"},
 };
-inline constexpr auto kBlockSequencerFields = attribute_fields(kBlockSequencerAttributes);
+inline constexpr auto kBlockSequencerFacts = facts_of(kBlockSequencerAttributes);
+inline constexpr auto kBlockSequencerFields =
+    with_facts(attribute_fields(kBlockSequencerAttributes), kBlockSequencerAttributes, kBlockSequencerFacts);
 inline constexpr auto kBlockSequencerLayouts =
     attribute_layouts("ns310", "block_sequencer", kBlockSequencerAttributes, kBlockSequencerFields);
 
@@ -775,7 +787,9 @@ inline constexpr Attribute kCommandBlockAttributes[] = {
      .section = "SIE-C718-7 B.9, 5.5.2",
      .explanation = "Depends on the block command."},
 };
-inline constexpr auto kCommandBlockFields = attribute_fields(kCommandBlockAttributes);
+inline constexpr auto kCommandBlockFacts = facts_of(kCommandBlockAttributes);
+inline constexpr auto kCommandBlockFields =
+    with_facts(attribute_fields(kCommandBlockAttributes), kCommandBlockAttributes, kCommandBlockFacts);
 inline constexpr auto kCommandBlockLayouts =
     attribute_layouts("ns310", "command_block", kCommandBlockAttributes, kCommandBlockFields);
 
@@ -1014,7 +1028,7 @@ inline constexpr Attribute kControlParameterAttributes[] = {
      .values = kAccelerationTypes,
      .default_text = "0",
      .section = "SIE-C718-7 B.10, 4.3.4",
-     .explanation = "Pn826; see Table 4.29 for the pairs with 64h/58."},
+     .explanation = "Pn826, set by 25h/18; see Table 4.29 for the pairs with 64h/58."},
     {.number = 58,
      .key = "filter_selection",
      .name = "Filter Selection",
@@ -1024,7 +1038,7 @@ inline constexpr Attribute kControlParameterAttributes[] = {
      .values = kFilters,
      .default_text = "0",
      .section = "SIE-C718-7 B.10, 4.3.4",
-     .explanation = "Pn829"},
+     .explanation = "Pn829, set by 25h/18"},
     {.number = 60,
      .key = "jog_speed",
      .name = "Feed Speed For Jog",
@@ -1082,7 +1096,7 @@ inline constexpr Attribute kControlParameterAttributes[] = {
      .values = kAccelerationTypes,
      .default_text = "0",
      .section = "SIE-C718-7 B.10, 4.3.4",
-     .explanation = "Pn836; see Table 4.29 for the pairs with 64h/58."},
+     .explanation = "Pn836, set by 25h/18; see Table 4.29 for the pairs with 64h/58."},
     {.number = 70,
      .key = "exponential_time",
      .name = "Time Constant For Exponential Curve",
@@ -1141,7 +1155,9 @@ inline constexpr Attribute kControlParameterAttributes[] = {
      .section = "SIE-C718-7 B.10, 4.3.5",
      .explanation = "Pn851. 0: infinite. Its range, 0 to 100,000, does not fit its type."},
 };
-inline constexpr auto kControlParameterFields = attribute_fields(kControlParameterAttributes);
+inline constexpr auto kControlParameterFacts = facts_of(kControlParameterAttributes);
+inline constexpr auto kControlParameterFields =
+    with_facts(attribute_fields(kControlParameterAttributes), kControlParameterAttributes, kControlParameterFacts);
 inline constexpr auto kControlParameterLayouts =
     attribute_layouts("ns310", "control_parameter", kControlParameterAttributes, kControlParameterFields);
 
@@ -1216,7 +1232,7 @@ inline constexpr Attribute kServopackParameterAttributes[] = {
      .range = {1, 2000},
      .default_text = "40",
      .section = "SIE-C718-7 B.11",
-     .explanation = "In 1/s."},
+     .explanation = "In 1/s. Pn102, one value with 25h/30."},
     {.number = 53,
      .key = "inertia_ratio",
      .name = "Inertia Ratio",
@@ -1691,7 +1707,8 @@ inline constexpr Attribute kServopackParameterAttributes[] = {
      .range = {0, 800},
      .unit = Unit::kPercent,
      .default_text = "800",
-     .section = "SIE-C718-7 B.11"},
+     .section = "SIE-C718-7 B.11",
+     .explanation = "Pn402, one value with 25h/26."},
     {.number = 143,
      .key = "reverse_torque_limit",
      .name = "Reverse Torque Limit",
@@ -1700,7 +1717,8 @@ inline constexpr Attribute kServopackParameterAttributes[] = {
      .range = {0, 800},
      .unit = Unit::kPercent,
      .default_text = "800",
-     .section = "SIE-C718-7 B.11"},
+     .section = "SIE-C718-7 B.11",
+     .explanation = "Pn403, one value with 25h/27."},
     {.number = 144,
      .key = "forward_external_torque_limit",
      .name = "Forward External Torque Limit",
@@ -1788,7 +1806,7 @@ inline constexpr Attribute kServopackParameterAttributes[] = {
      .range = {1, 32767},
      .default_text = "1024",
      .section = "SIE-C718-7 B.11",
-     .explanation = "In 0.256 mm."},
+     .explanation = "In 0.256 mm. Pn505, one value with 25h/45."},
     {.number = 166,
      .key = "brake_reference_servo_off_delay_time",
      .name = "Brake Reference Servo Off Delay Time",
@@ -1906,7 +1924,9 @@ inline constexpr Attribute kServopackParameterAttributes[] = {
      .default_text = "0",
      .section = "SIE-C718-7 B.11"},
 };
-inline constexpr auto kServopackParameterFields = attribute_fields(kServopackParameterAttributes);
+inline constexpr auto kServopackParameterFacts = facts_of(kServopackParameterAttributes);
+inline constexpr auto kServopackParameterFields = with_facts(attribute_fields(kServopackParameterAttributes),
+                                                             kServopackParameterAttributes, kServopackParameterFacts);
 inline constexpr auto kServopackParameterLayouts =
     attribute_layouts("ns310", "servopack_parameter", kServopackParameterAttributes, kServopackParameterFields);
 

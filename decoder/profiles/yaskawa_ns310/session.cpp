@@ -76,8 +76,13 @@ void Session::on_gap() {
   candidate_ = Operation::kUnknown;
   position_.reset();
   start_seen_ = false;  // a homing may have been lost
-  // So may a Set: what is shown stays, what is judged is not known any more.
+  // So may a Set or a Reset: what is shown stays, what is judged is not known any more.
   blocks_.doubt();
+  for (Setting* setting :
+       {&gear_numerator_, &gear_denominator_, &acceleration_, &filter_, &jog_acceleration_, &reference_direction_}) {
+    setting->certain = false;
+  }
+  needs_reset_.active = false;
   sequencer_block_.reset();
 }
 

@@ -51,6 +51,8 @@ class Session final : public DriveBase {
   struct Setting {
     std::int64_t value = 0;
     Basis basis = {BasisKind::kAssumed, 0};
+    bool certain = true;  // no record was lost since
+    bool is_known() const { return basis.kind == BasisKind::kCapture && certain; }
   };
   // What the drive reported last; kept across gaps, for a gap does not hide a rise.
   struct Reported {
@@ -92,6 +94,7 @@ class Session final : public DriveBase {
   void judge_block_request(const Context& context, const ExplicitExchange& exchange);
   void learn_block(const Context& context, const ExplicitExchange& exchange);
   void show_block(const Context& context, const Message& message, const Block& block, Direction direction) const;
+  void show_block_attribute(const Context& context, const ExplicitExchange& exchange, const Block& block, Bytes data);
   void judge_chain(const Context& context, std::uint8_t first, ByteRange where);
   void judge_sequencer_start(const Context& context, const ExplicitExchange& exchange);
 
@@ -150,6 +153,7 @@ class Session final : public DriveBase {
   Blocks blocks_;
   std::optional<std::uint8_t> sequencer_block_;  // 26h/1, where the capture shows it
   std::uint8_t homing_block_ = 0;                // the block 10h that was judged (YS202)
+  Text<64> attribute_text_;                      // likewise
   BlockText text_;                               // of the derived fields; valid as long as the dissection
 
   Durations valid_echo_;

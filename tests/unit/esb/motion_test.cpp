@@ -98,6 +98,17 @@ TEST_F(EsbMotion, NK302UnknownProgramIsANoteForRunOnly) {
   EXPECT_EQ(bench_.last("NK302").severity, Severity::kWarning);
   EXPECT_EQ(bench_.count("NK302"), 2);
 }
+// The program may have been edited among the records lost.
+TEST_F(EsbMotion, NK302AProgramBeforeAGapIsANote) {
+  ready();
+  program(5, {{610, 4000}});
+  bench_.gap();
+  ready();
+  run(5, {.byte0 = kReady | kBusy, .ack_prg = 5});
+  poll({}, {.byte0 = kReady | kBusy, .ack_prg = 5});
+  run(6, {.byte0 = kReady | kBusy, .ack_prg = 5});
+  EXPECT_EQ(bench_.last("NK302").severity, Severity::kNote);
+}
 TEST_F(EsbMotion, NK302NotForJog) {
   ready();
   poll({.byte0 = kSvon | kHos}, busy_);

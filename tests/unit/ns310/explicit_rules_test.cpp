@@ -133,6 +133,58 @@ TEST_F(Ns310Explicit, YS304UnknownBlocksAreNoFault) {
   EXPECT_EQ(bench_.rules(), "");
 }
 
+// B.8: 26h/1 names the block, a Set of 26h/2 to 1 starts it.
+TEST_F(Ns310Explicit, YS303AndYS304ByTheSequencer) {
+  ready();
+  set_block(1, "09 02 40 1F 00 00");
+  set_block(2, "09 01 00 10 00 00");
+  bench_.set(0x26, 1, 1, hex("01"));
+  EXPECT_EQ(bench_.rules(), "");
+  bench_.set(0x26, 1, 2, hex("00"));
+  EXPECT_EQ(bench_.rules(), "");
+  bench_.set(0x26, 1, 2, hex("01"));
+  EXPECT_EQ(bench_.rules(), "YS304");
+  bench_.set(0x27, 7, 1, hex("08"));
+  bench_.get(0x26, 1, 1, hex("07"));
+  bench_.set(0x26, 1, 2, hex("01"));
+  EXPECT_EQ(bench_.rules(), "YS303 YS304");
+}
+TEST_F(Ns310Explicit, YS304TheSequencersBlockIsNotKnown) {
+  ready();
+  set_block(1, "09 01 40 1F 00 00");
+  bench_.set(0x26, 1, 2, hex("01"));
+  EXPECT_EQ(bench_.rules(), "");
+}
+// A Set may be among the records lost: what is known of blocks is not held against anyone.
+TEST_F(Ns310Explicit, YS303AndYS304AfterAGap) {
+  ready();
+  bench_.set(0x27, 1, 1, hex("08"));
+  set_block(2, "09 02 40 1F 00 00");
+  bench_.gap();
+  ready();
+  start_block_1();
+  bench_.set(0x26, 1, 1, hex("02"));
+  bench_.set(0x26, 1, 2, hex("01"));
+  EXPECT_EQ(bench_.rules(), "");
+  set_block(2, "09 02 40 1F 00 00");
+  bench_.set(0x26, 1, 2, hex("01"));
+  EXPECT_EQ(bench_.rules(), "YS304");
+}
+
+TEST_F(Ns310Explicit, YS401YS402AndYS403AfterAGap) {
+  ready();
+  set(0x64, 30, "E8 03 00 00");  // 1000
+  set(0x64, 58, "03");
+  bench_.gap();
+  ready();
+  set(0x64, 31, "05 00 00 00");  // over 5: the numerator may have been set anew, too
+  set(0x64, 56, "02");
+  bench_.gap();
+  ready();
+  poll("C1 00 21 21 00 F4 01 00", kMoving);
+  EXPECT_EQ(bench_.rules(), "");
+}
+
 TEST_F(Ns310Explicit, YS305BlockAttribute) {
   ready();
   set_block(1, "01 00 25 01 07 40 1F 00 00");  // target speed is not in Table 5.4
