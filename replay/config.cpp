@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iterator>
 #include <set>
 
+#include "decoder/pipeline/registry.hpp"
 #include "decoder/render/json.hpp"
 #include "replay/capture/whole_file.hpp"
 #include "replay/commands.hpp"
@@ -93,12 +95,12 @@ void append_axis(std::string& text, const NodeRecord& axis) {
 void append_node(std::string& text, const NodeRecord& node) {
   const auto to = std::back_inserter(text);
   fmt::format_to(to, "\n[[devicenet.node]]\nmac_id = {}\n# name = \"\"\n", *node.node.mac_id);
-  const bool known = node.profile == "yaskawa-ns310" || node.profile == "nsk-esb" || node.profile == "generic";
-  if (known) {
+  const std::vector<std::string_view> keys = profile_keys();
+  if (std::find(keys.begin(), keys.end(), node.profile) != keys.end()) {
     fmt::format_to(to, "profile = \"{}\"{}\n", node.profile,
                    node.recognised.empty() ? "" : fmt::format("    # {}", node.recognised));
   } else {
-    text += "# profile = \"nsk-esb\"                 # \"yaskawa-ns310\", \"nsk-esb\" or \"generic\"\n";
+    fmt::format_to(to, "# profile = \"{}\"                 # one of: {}\n", keys.front(), fmt::join(keys, ", "));
   }
 }
 

@@ -28,4 +28,11 @@ std::vector<DerivedField> all_derived() {
   return all;
 }
 
+std::vector<std::string_view> profile_keys() {
+  std::vector<std::string_view> keys;
+  for (const DriveProfile* profile : kProfiles) keys.push_back(profile->key);
+  keys.push_back("generic");
+  return keys;
+}
+
 }  // namespace servotrace

@@ -3,7 +3,7 @@
 // tests that hold the tables.
 #pragma once
 
-#include <span>
+#include <string_view>
 #include <vector>
 
 #include "decoder/core/layout.hpp"
@@ -18,5 +18,7 @@ struct DerivedField {
 // In a fixed order: links, RTEX, DeviceNet, profiles.
 std::vector<const Layout*> all_layouts();
 std::vector<DerivedField> all_derived();
+// The keys of the drive profiles, as settings name them; "generic" (no profile) last.
+std::vector<std::string_view> profile_keys();
 
 }  // namespace servotrace

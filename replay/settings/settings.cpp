@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "decoder/pipeline/registry.hpp"
 #include "replay/settings/rtex_log_reader.hpp"
 #include "replay/settings/toml_reader.hpp"
 
@@ -135,7 +136,7 @@ void read_devicenet(const toml::table& source, DevicenetSettings& devicenet, Tom
     row.require("mac_id");
     if (const auto mac_id = row.integer("mac_id", 0, 63)) node.mac_id = static_cast<std::uint8_t>(*mac_id);
     node.name = row.text("name").value_or("");
-    if (row.choice("profile", {"yaskawa-ns310", "nsk-esb", "generic"})) node.profile = *row.text("profile");
+    if (row.choice("profile", profile_keys())) node.profile = *row.text("profile");
     for (const DevicenetNodeSettings& other : devicenet.nodes) {
       if (other.mac_id == node.mac_id) row.fail("mac_id", fmt::format("node {} is given twice", node.mac_id));
     }

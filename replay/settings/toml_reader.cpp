@@ -116,16 +116,14 @@ std::optional<std::string> TomlTable::text(std::string_view key) const {
   return {};
 }
 
-std::optional<std::size_t> TomlTable::choice(std::string_view key,
-                                             std::initializer_list<std::string_view> choices) const {
+std::optional<std::size_t> TomlTable::choice(std::string_view key, std::span<const std::string_view> choices) const {
   const std::optional<std::string> value = text(key);
   if (!value) return {};
-  const std::vector<std::string_view> list(choices);
   std::string wanted;
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    if (list[i] == *value) return i;
-    if (i > 0) wanted += i + 1 == list.size() ? " or " : ", ";
-    wanted += fmt::format("\"{}\"", list[i]);
+  for (std::size_t i = 0; i < choices.size(); ++i) {
+    if (choices[i] == *value) return i;
+    if (i > 0) wanted += i + 1 == choices.size() ? " or " : ", ";
+    wanted += fmt::format("\"{}\"", choices[i]);
   }
   fail(key, fmt::format("'{}' = \"{}\": must be {}", key, *value, wanted));
   return {};

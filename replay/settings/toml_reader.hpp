@@ -9,6 +9,7 @@
 #include <initializer_list>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -54,7 +55,10 @@ class TomlTable {
   // Never empty.
   std::optional<std::string> text(std::string_view key) const;
   // The index in `choices` of a string value.
-  std::optional<std::size_t> choice(std::string_view key, std::initializer_list<std::string_view> choices) const;
+  std::optional<std::size_t> choice(std::string_view key, std::span<const std::string_view> choices) const;
+  std::optional<std::size_t> choice(std::string_view key, std::initializer_list<std::string_view> choices) const {
+    return choice(key, std::span(choices.begin(), choices.size()));
+  }
   std::optional<Date> date(std::string_view key) const;
   const toml::table* table(std::string_view key) const;
   const toml::array* array(std::string_view key) const;

@@ -1,80 +1,43 @@
 // SPDX-License-Identifier: MIT
-// An invented third drive: what a new profile has to bring is one folder (here: this file) and one line in profiles.hpp
-// (here: the pointer). Everything else reads it through DriveProfile and DriveSession.
+// A third drive takes one folder (invented_spindle) and one line: this program is built with profiles.hpp and that line
+// (tests/CMakeLists.txt), everything else is the decoder's own code.
 #include <gtest/gtest.h>
 
-#include "decoder/profiles/drive_base.hpp"
-#include "tests/support/bytes.hpp"
-#include "tests/support/drive_bench.hpp"
+#include <algorithm>
+
+#include "decoder/pipeline/registry.hpp"
+#include "decoder/profiles/profiles.hpp"
+#include "tests/support/can_decoder.hpp"
+#include "tests/unit/profiles/invented_spindle/profile.hpp"
 
 namespace servotrace {
 namespace {
 
-constexpr Field kSpindleFields[] = {
-    {.key = "speed",
-     .label = "Speed",
-     .first_bit = at(0),
-     .width = 16,
-     .role = Role::kSignal,
-     .unit = Unit::kRevolutionsPerMinute,
-     .section = "invented 1"},
-    {.key = "runs", .label = "Runs", .first_bit = at(2), .width = 1, .kind = Kind::kBool, .section = "invented 1"},
-    {.key = "reserved",
-     .label = "(reserved)",
-     .first_bit = at(2, 1),
-     .width = 7,
-     .reserved = true,
-     .section = "invented 1"},
-};
-constexpr Layout kSpindle{.protocol = "spindle",
-                          .key = "status",
-                          .title = "Status",
-                          .size = 3,
-                          .fields = kSpindleFields,
-                          .section = "invented 1"};
-static_assert(well_formed(kSpindle));
-
-class SpindleSession final : public DriveBase {
- public:
-  using DriveBase::DriveBase;
-  void on_command(const Context&, const Message&) override {}
-  void on_response(const Context& context, const Message& message) override {
-    add(context, message, kSpindle, 0, Direction::kResponse);
-    runs_ = read(slot(kSpindle, "runs"), message.bytes) != 0;
-  }
-  void on_explicit(const Context&, const ExplicitExchange&) override {}
-  void on_time(const Context&) override {}
-  void on_start(const Context&) override { runs_ = false; }
-  void on_gap() override {}
-  void on_finish(const Context&) override {}
-  bool is_moving() const override { return runs_; }
-  void summarise(NodeSummary&, std::vector<Statistic>&) const override {}
-
- private:
-  bool runs_ = false;
-};
-
-std::unique_ptr<DriveSession> make_spindle(const Settings& settings, const NodeRef& node, OwnerId owner,
-                                           bool decode_only) {
-  return std::make_unique<SpindleSession>(settings, node, owner, decode_only);
+TEST(ThirdProfile, IsInTheList) {
+  EXPECT_EQ(kProfiles.size(), 3U);
+  const std::vector<std::string_view> keys = profile_keys();
+  EXPECT_EQ(keys, (std::vector<std::string_view>{"yaskawa-ns310", "nsk-esb", "invented-spindle", "generic"}));
+  const std::vector<const Layout*> layouts = all_layouts();
+  EXPECT_NE(std::find(layouts.begin(), layouts.end(), &spindle::kStatus), layouts.end());
 }
-constexpr const Layout* kSpindleLayouts[] = {&kSpindle};
-constexpr DriveProfile kSpindleProfile{.key = "invented-spindle",
-                                       .title = "Invented spindle",
-                                       .protocol = "spindle",
-                                       .response_size = 3,
-                                       .layouts = kSpindleLayouts,
-                                       .make_session = &make_spindle};
 
-TEST(ThirdProfile, IsOneFolderAndOneLine) {
-  const DriveProfile* const profiles[] = {&kSpindleProfile};  // the line
-  test::DriveBench bench(*profiles[0]);
-  bench.response(test::hex("E8 03 01"));
-  EXPECT_TRUE(bench.session().is_moving());
-  ASSERT_EQ(bench.dissection().segments.size(), 1U);
-  EXPECT_EQ(bench.dissection().segments[0].layout, &kSpindle);
-  bench.start();
-  EXPECT_FALSE(bench.session().is_moving());
+TEST(ThirdProfile, IsDecodedWhereItIsConfigured) {
+  test::CanDecoder bus(7, "invented-spindle");
+  bus.frame(0x43D, "01");  // a poll command to node 7
+  const std::string text = bus.frame(0x3C7, "E8 03 01");
+  EXPECT_NE(text.find("Status\n    Speed: 1000 r/min\n    Runs: 1\n"), std::string::npos) << text;
+}
+
+// Vendor and product code of the Identity object, read as 5.6.2 of the NS310 manual draws it.
+TEST(ThirdProfile, IsRecognisedByItsIdentity) {
+  test::CanDecoder bus(7, "");
+  bus.frame(0x43C, "00 0E 01 01 01");
+  bus.frame(0x43B, "00 8E EE 0E");
+  bus.frame(0x43C, "40 0E 01 01 03");
+  bus.frame(0x43B, "40 8E 07 00");
+  bus.frame(0x43D, "01");
+  const std::string text = bus.frame(0x3C7, "E8 03 00");
+  EXPECT_NE(text.find("Speed: 1000 r/min\n"), std::string::npos) << text;
 }
 
 }  // namespace
