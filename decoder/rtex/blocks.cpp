@@ -22,6 +22,8 @@ void Engine::name_node(Node& node, std::uint8_t mac_id, bool actual) {
   const bool another = node.mac_known && node.actual_mac != mac_id;
   if (another) {  // another drive at this place: what was learnt was the other's
     node.known = Knowledge{};
+    node.following = {};
+    node.multi_turn_frame = 0;
     node.strings = {};
     node.settings = nullptr;
   }
@@ -78,6 +80,7 @@ void Engine::push_command(const Context& context, Node& node, Bytes block, std::
       events |= command.servo_on ? kServoOn : kServoOff;
   }
   if (node.mode_changed) events |= kModeChange;
+  watch_command(scene);
   run(scene, events);
   for (ChannelState& channel : node.channels) {
     if (channel.id == Channel::kSub && !command.wide) continue;

@@ -128,6 +128,41 @@ Outcome mode_change_in_homing(Scene& scene) {
                       .related = {node.previous_frame, 0}});
 }
 
+Outcome mode_change_velocity(Scene& scene) {
+  const Node& node = *scene.node;
+  const CommandView& command = node.command;
+  std::int64_t commanded = 0;
+  if (command.is(Cyclic::kCv)) {
+    commanded = command.data1;
+  } else if (command.is(Cyclic::kPp) && command.is(NonCyclic::kProfile)) {
+    const std::uint16_t type = command.main.type_code;
+    const bool has_speed = (type >= 0x10 && type <= 0x13) || type == 0x20;
+    // A change that stops the axis brings no speed of its own.
+    if (!has_speed || command.hard_stop || command.smooth_stop || command.pause) return Outcome::kSilent;
+    commanded = command.main.setting_data;
+  } else {
+    return Outcome::kSilent;
+  }
+  const Speed speed = actual_speed(node);
+  const auto& least = scene.limits().moving_speed;
+  if (!speed.known || !node.response_chain || (speed.in_units && !least) || !speed_moves(scene.ring, node).yes)
+    return Outcome::kSilent;
+  std::int64_t actual = speed.value;
+  if (command.is(Cyclic::kPp)) {  // the direction is the target's
+    actual = actual < 0 ? -actual : actual;
+    commanded = commanded < 0 ? -commanded : commanded;
+  }
+  const std::int64_t difference = commanded > actual ? commanded - actual : actual - commanded;
+  const std::int64_t magnitude = actual < 0 ? -actual : actual;
+  const bool jumps =
+      difference > least.value_or(30) && difference * 100 > scene.limits().mode_change_velocity_percent * magnitude;
+  if (!jumps) return Outcome::kPassed;
+  return scene.raise({.arguments = {command.cyclic, commanded, actual},
+                      .where = command.is(Cyclic::kCv) ? scene.bytes(kData1At, 4) : scene.bytes(kData3At, 4),
+                      .related = {node.response_frame, 0},
+                      .basis = speed.basis});
+}
+
 Outcome nop_after_start(Scene& scene) {
   const Node& node = *scene.node;
   if (!scene.ring.running || !node.mode_commanded) return Outcome::kSilent;

@@ -5,30 +5,6 @@
 namespace servotrace::rtex::checks {
 namespace {
 
-bool starts(const Scene& scene, NonCyclic code) {
-  return !scene.is_sub() && scene.part().code == static_cast<std::uint8_t>(code);
-}
-bool starts(const Scene& scene, NonCyclic code, std::uint16_t type_code) {
-  return starts(scene, code) && scene.part().type_code == type_code;
-}
-// The status bits of the last response can be read.
-bool has_status(const Node& node) { return node.have_response && !node.status_undefined; }
-
-Outcome raise_start(Scene& scene, Report report = {}) {
-  if (report.where.length == 0) report.where = scene.bytes(8, 4);
-  if (report.related[0] == 0) report.related[0] = scene.node->response_frame;
-  if (report.arguments[0] == 0) report.arguments[0] = scene.part().type_code;
-  return scene.raise(report);
-}
-
-// The profile in progress, 0 where none is.
-std::uint8_t profile_in_progress(const Node& node) {
-  return node.profile.known && in_progress(node).yes ? node.profile.type_code : 0;
-}
-bool is_special(std::uint8_t profile) {
-  return profile == 0x12 || profile == 0x13 || (profile >= 0x31 && profile <= 0x33);
-}
-
 // A homing command other than latch that is left.
 const Hold* left_homing(const Scene& scene) {
   const HandshakeStep step = scene.channel->step;
@@ -88,7 +64,7 @@ Outcome multi_turn_short(Scene& scene) {
 Outcome homing_in_profile_latch(Scene& scene) {
   if (!starts(scene, NonCyclic::kHoming)) return Outcome::kSilent;
   const std::uint8_t profile = profile_in_progress(*scene.node);
-  if (!is_special(profile)) return Outcome::kPassed;
+  if (!is_latch_or_homing_profile(profile)) return Outcome::kPassed;
   return raise_start(scene, {.arguments = {scene.part().type_code, profile}});
 }
 

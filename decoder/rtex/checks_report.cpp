@@ -28,9 +28,15 @@ constexpr CauseRow kErrorCauses[] = {
     causes(0x0032, rule("RX309"), rule("RX310"), rule("RX514")),
     causes(0x0034, rule("RX310"), rule("RX314")),
     causes(0x0045, rule("RX603")),
+    causes(0x0046, rule("RX705")),
+    causes(0x0051, rule("RX522")),
+    causes(0x0052, rule("RX522")),
+    causes(0x0053, rule("RX522")),
+    causes(0x0055, rule("RX522")),
     causes(0x0056, rule("RX505")),
     causes(0x0057, rule("RX501")),
     causes(0x0059, rule("RX507"), rule("RX508")),
+    causes(0x005A, rule("RX522")),
     causes(0x0101, rule("RX303")),
     causes(0x0104, rule("RX510")),
     causes(0x0140, rule("RX510")),
@@ -140,6 +146,15 @@ Outcome servo_dropped(Scene& scene) {
                               elapsed_ns(node.alarms.alarm_rise.time_ns, scene.now.time_ns) <= milliseconds(100));
   if (near_alarm) return Outcome::kPassed;
   return scene.raise({.where = scene.bytes(2, 1), .related = {node.command_frame, 0}});
+}
+
+Outcome emergency_stop(Scene& scene) {
+  const Node& node = *scene.node;
+  const EmergencyInput input = emergency_input(node);
+  if (!input.known || !node.emergency.known) return Outcome::kSilent;
+  if (!input.active) return Outcome::kPassed;
+  if (node.emergency.active) return Outcome::kSilent;
+  return scene.raise({.where = scene.bytes(0, node.wide ? 32 : 16)});
 }
 
 }  // namespace servotrace::rtex::checks

@@ -213,9 +213,18 @@ void Engine::decode(const Context& context, const Node& node, Bytes block, std::
                block_at, ref, response ? Direction::kResponse : Direction::kCommand, *context.dissection);
 }
 
-void Engine::finish(const Context&) {
+// RX609: only the end of the capture shows that nothing followed.
+void Engine::finish(const Context& context) {
   for (const auto& node : ring_.nodes) {
-    if (node != nullptr) wake(*node);
+    if (node == nullptr) continue;
+    wake(*node);
+    Scene scene = ring_scene(context);
+    scene.node = node.get();
+    for (const Knowledge::Waiting& entry : node->known.waiting()) {
+      if (entry.lost || (entry.attribute != Attribute::kC && entry.attribute != Attribute::kR)) continue;
+      ring_.findings.checked(rule("RX609"));
+      report(scene, rule("RX609"), node->owner, {.arguments = {entry.index}, .related = {entry.frame, 0}});
+    }
   }
 }
 

@@ -46,7 +46,7 @@ class Engine {
   void restart_ring(const Context& context);
   void end_command_record(const Context& context);
   void end_response_record(const Context& context);
-  void stop_ring();
+  void stop_ring(bool by_reset = false);
   Scene ring_scene(const Context& context);
 
   // blocks.cpp
@@ -67,6 +67,10 @@ class Engine {
   void learn_ratio(const Context& context);
   void decide_ratio(const Context& context);
   void learn_lag(const Context& context);
+
+  // timing.cpp: RX207 to RX209
+  void count_timing(const Context& context);
+  void learn_timing(const Context& context);
 
   // handshake.cpp
   void step_command(Scene& scene, ChannelState& channel);

@@ -17,6 +17,14 @@ HandshakeEvent event_of(const Node& node, const CommandPart& part, const Command
   return extend_mode(node) ? HandshakeEvent::kRestart : HandshakeEvent::kNewArguments;
 }
 
+// The statistics of a code; nullptr for the standard command and for codes the manual does not have.
+Durations* duration_of(CommandDurations& durations, std::uint8_t code) {
+  for (std::size_t i = 0; i < durations.size(); ++i) {
+    if (kNonCyclicNames[i + 1].value == code) return &durations[i];
+  }
+  return nullptr;
+}
+
 }  // namespace
 
 DurationNs busy_limit_ns(const Process& process, const Limits& limits) {
@@ -43,6 +51,11 @@ void Engine::begin_hold(Scene& scene, ChannelState& channel) {
   channel.hold.seen_start = true;
   channel.hold.every_response = true;
   channel.hold.not_started = channel.next_not_started;
+  const Position position = actual_position(*scene.node);
+  channel.hold.position_known = position.known;
+  channel.hold.position = position.value;
+  const CommandView& command = scene.node->command;
+  channel.hold.stop_bits = command.hard_stop || command.smooth_stop || command.pause;
 }
 
 void Engine::step_command(Scene& scene, ChannelState& channel) {
@@ -109,6 +122,8 @@ void Engine::step_response(Scene& scene, ChannelState& channel) {
     process.busy = false;
   }
 
+  if (scene.now.cycle > channel.hold.start.cycle && in_progress(node).yes) channel.hold.in_progress = true;
+
   // The hold. Of its own first cycle the response cannot show it: the echo lags (3-1).
   Hold& hold = channel.hold;
   bool completed = false;
@@ -124,9 +139,8 @@ void Engine::step_response(Scene& scene, ChannelState& channel) {
         hold.echoed = true;
         hold.echo = scene.now;
         if (hold.seen_start) {
-          auto& times = node.echo_times[answer.echo];
-          if (times == nullptr) times = std::make_unique<Durations>();
-          times->add(elapsed_ns(hold.start.time_ns, scene.now.time_ns));
+          if (Durations* const times = duration_of(node.echo_times, answer.echo); times != nullptr)
+            times->add(elapsed_ns(hold.start.time_ns, scene.now.time_ns));
         }
       }
       hold.refused = answer.error;
@@ -138,9 +152,8 @@ void Engine::step_response(Scene& scene, ChannelState& channel) {
         hold.complete = completed = true;
         events |= kCompleted;
         if (hold.seen_start) {
-          auto& times = node.done_times[answer.echo];
-          if (times == nullptr) times = std::make_unique<Durations>();
-          times->add(elapsed_ns(hold.start.time_ns, scene.now.time_ns));
+          if (Durations* const times = duration_of(node.done_times, answer.echo); times != nullptr)
+            times->add(elapsed_ns(hold.start.time_ns, scene.now.time_ns));
         }
       }
       events |= kDeadline;

@@ -42,11 +42,31 @@ void Knowledge::forget(std::uint16_t index) {
 }
 
 void Knowledge::on_read(std::uint16_t index, std::int32_t value, std::uint64_t frame) {
-  for (std::size_t i = 0; i < waiting_count_; ++i) {
-    const bool acts = waiting_[i].attribute == Attribute::kA || waiting_[i].attribute == Attribute::kB;
-    if (waiting_[i].index == index && !acts) return;
+  if (!is_pending(index)) learn(index, value, frame);
+}
+
+bool Knowledge::is_pending(std::uint16_t index) const {
+  for (const Waiting& entry : waiting()) {
+    const bool acts = entry.attribute == Attribute::kA || entry.attribute == Attribute::kB;
+    if (entry.index == index && !acts) return true;
   }
-  learn(index, value, frame);
+  return false;
+}
+
+void Knowledge::on_attribute(std::uint16_t index, Attribute attribute) {
+  for (ParameterAttribute& entry : attributes_) {
+    if (entry.index != index) continue;
+    entry.attribute = attribute;
+    return;
+  }
+  attributes_.push_back({index, attribute});  // past the last place: as the manual prints it
+}
+
+Attribute Knowledge::attribute(std::uint16_t index) const {
+  for (const ParameterAttribute& entry : attributes_) {
+    if (entry.index == index) return entry.attribute;
+  }
+  return attribute_of(index);
 }
 
 void Knowledge::on_write(std::uint16_t index, std::int32_t value, Attribute attribute, std::uint64_t frame) {
@@ -55,13 +75,15 @@ void Knowledge::on_write(std::uint16_t index, std::int32_t value, Attribute attr
   if (attribute == Attribute::kA || attribute == Attribute::kB) learn(index, value, frame);
   // When a value of unknown attribute acts is not known: until a reset it may be either.
   if (attribute == Attribute::kUnknown) forget(index);
+  if (unsaved_.count++ == 0) unsaved_ = {1, index, frame};
   if (place == kMaxWaiting) return;
-  waiting_[place] = {index, value, attribute, frame, false};
+  waiting_[place] = {index, value, attribute, frame, false, false};
   if (place == waiting_count_) ++waiting_count_;
 }
 
 void Knowledge::on_eeprom_write() {
   for (std::size_t i = 0; i < waiting_count_; ++i) waiting_[i].in_eeprom = true;
+  unsaved_ = {};
 }
 
 void Knowledge::on_validation() {
@@ -86,6 +108,12 @@ void Knowledge::on_reset() {
     }
   }
   waiting_count_ = 0;
+  unsaved_ = {};
+}
+
+void Knowledge::on_lost() {
+  for (std::size_t i = 0; i < waiting_count_; ++i) waiting_[i].lost = true;
+  unsaved_ = {};
 }
 
 void Knowledge::prove(Fact fact, std::int32_t value, std::uint64_t frame) {

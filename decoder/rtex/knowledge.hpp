@@ -5,7 +5,9 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
+#include "decoder/core/small_vector.hpp"
 #include "decoder/findings/finding.hpp"
 #include "decoder/pipeline/settings.hpp"
 #include "decoder/rtex/decode.hpp"
@@ -91,6 +93,11 @@ struct Known {
   bool certainly(std::int32_t wanted) const { return certain() && value == wanted; }
 };
 
+struct ParameterAttribute {
+  std::uint16_t index = 0;
+  Attribute attribute = Attribute::kUnknown;
+};
+
 class Knowledge {
  public:
   Knowledge();
@@ -105,20 +112,38 @@ class Knowledge {
   void on_eeprom_write();
   void on_validation();  // a completed attribute C validation
   void on_reset();       // a software reset
+  void on_lost();        // what happened meanwhile is not known: lost records, a new start of the ring
+  // The attribute as a read of it (040h) showed it, else as the manual prints it.
+  void on_attribute(std::uint16_t index, Attribute attribute);
+  Attribute attribute(std::uint16_t index) const;
   // Something the drive did proves the value.
   void prove(Fact fact, std::int32_t value, std::uint64_t frame);
 
   BlockFormat format() const;
 
- private:
+  // A written parameter that a validation or a reset may still be needed for.
   struct Waiting {
     std::uint16_t index = 0;
     std::int32_t value = 0;
     Attribute attribute = Attribute::kUnknown;
     std::uint64_t frame = 0;
     bool in_eeprom = false;
+    bool lost = false;  // a reset may have come in records that were lost
   };
+  std::span<const Waiting> waiting() const { return std::span(waiting_).first(waiting_count_); }
+  // True where a write of the parameter is not known to act yet.
+  bool is_pending(std::uint16_t index) const;
+  // The writes since the last EEPROM write: a reset loses them.
+  struct Unsaved {
+    std::uint32_t count = 0;
+    std::uint16_t index = 0;  // of the first
+    std::uint64_t frame = 0;
+  };
+  const Unsaved& unsaved() const { return unsaved_; }
+
+ private:
   static constexpr std::size_t kMaxWaiting = 32;
+  static constexpr std::size_t kMaxAttributes = 64;
 
   void learn(std::uint16_t index, std::int32_t value, std::uint64_t frame);
   void forget(std::uint16_t index);
@@ -126,6 +151,8 @@ class Knowledge {
   std::array<Known, kFactCount> known_ = {};
   std::array<Waiting, kMaxWaiting> waiting_ = {};
   std::size_t waiting_count_ = 0;
+  Unsaved unsaved_;
+  SmallVector<ParameterAttribute, kMaxAttributes> attributes_;
 };
 
 }  // namespace servotrace::rtex

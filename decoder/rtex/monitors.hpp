@@ -245,8 +245,9 @@ constexpr BitMapRow bit_map(std::uint8_t type_code, std::uint16_t conventional, 
           title,
           {word("response", title, fields, section), word("sub_response", title, fields, section)}};
 }
+inline constexpr std::uint8_t kLogicalInputs = 0x21;
 inline constexpr BitMapRow kBitMaps[] = {
-    bit_map(0x21, 0, "Logical input signal", kLogicalInputFields, kSignalSection),
+    bit_map(kLogicalInputs, 0, "Logical input signal", kLogicalInputFields, kSignalSection),
     bit_map(0x22, 0, "Logical output signal", kLogicalOutputFields, kSignalSection),
     bit_map(0x23, 0, "Logical input signal (expansion portion)", kExtendedInputFields, kSignalSection),
     bit_map(0x24, 0, "Logical output signal (expansion portion)", kExtendedOutputFields, kSignalSection),

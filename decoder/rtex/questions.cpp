@@ -73,7 +73,9 @@ Position actual_position(const Node& node) {
   if (!node.have_response || node.status_undefined) return {};
   const Known& chosen = node.known[Fact::kMonitor1];
   if (!chosen || (chosen.value != 0 && chosen.value != 0x07)) return {};
-  return {true, node.response.data1, chosen.basis};
+  if (chosen.certain()) return {true, node.response.data1, chosen.basis};
+  if (!node.following.proven) return {};
+  return {true, node.response.data1, {BasisKind::kCapture, node.following.frame}};
 }
 
 Answer moves(const Ring& ring, const Node& node) {
@@ -126,6 +128,50 @@ bool matches(const CommandPart& part, const ResponsePart& answer, bool sub) {
   if ((part.type_code & mask) != (answer.type_code & mask)) return false;
   if (!sub && code == NonCyclic::kAlarm && part.type_code == kAlarmAttribute && part.index == 0) return true;
   return part.index == answer.index;
+}
+
+bool starts(const Scene& scene, NonCyclic code) {
+  return !scene.is_sub() && scene.part().code == static_cast<std::uint8_t>(code);
+}
+bool starts(const Scene& scene, NonCyclic code, std::uint16_t type_code) {
+  return starts(scene, code) && scene.part().type_code == type_code;
+}
+
+bool has_status(const Node& node) { return node.have_response && !node.status_undefined; }
+
+std::uint8_t profile_in_progress(const Node& node) {
+  return node.profile.known && in_progress(node).yes ? node.profile.type_code : 0;
+}
+bool is_latch_or_homing_profile(std::uint8_t profile) {
+  return profile == 0x12 || profile == 0x13 || (profile >= 0x31 && profile <= 0x33);
+}
+
+Outcome raise_start(Scene& scene, Report report) {
+  if (report.where.length == 0) report.where = scene.bytes(8, 4);
+  if (report.related[0] == 0) report.related[0] = scene.node->response_frame;
+  if (report.arguments[0] == 0) report.arguments[0] = scene.part().type_code;
+  return scene.raise(report);
+}
+
+EmergencyInput emergency_input(const Node& node) {
+  const ResponseView& response = node.response;
+  const auto in_map = [](std::uint32_t data) {
+    std::array<std::uint8_t, 4> bytes = {};
+    for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(data >> (8 * i));
+    return read(slot(kBitMaps[0].layouts[0], "input_e_stop"), bytes) != 0;
+  };
+  if (!has_status(node)) return {};
+  if (node.settings != nullptr && node.settings->input_second_meaning[7] == true) return {true, response.bit7_input};
+  for (const ResponsePart* part : {&response.main, &response.sub}) {
+    if (part->is(NonCyclic::kMonitor) && part->type_code == kLogicalInputs && !part->busy)
+      return {true, in_map(part->data)};
+  }
+  const auto chosen = [&](Fact fact) { return node.known[fact].certainly(kLogicalInputs); };
+  if (chosen(Fact::kMonitor1)) return {true, in_map(static_cast<std::uint32_t>(response.data1))};
+  if (response.communication_error || response.main.error || response.main.echo != 0) return node.emergency;
+  if (chosen(Fact::kMonitor2)) return {true, in_map(static_cast<std::uint32_t>(response.data2))};
+  if (chosen(Fact::kMonitor3)) return {true, in_map(static_cast<std::uint32_t>(response.data3))};
+  return node.emergency;
 }
 
 }  // namespace servotrace::rtex

@@ -160,7 +160,7 @@ void Engine::restart_comparisons() {
   ring_.missing_responses = 0;
   ring_.last_command_follows = false;
   ring_.timeout_pending = false;
-  ring_.tmg_known = ring_.tmg_phase = false;
+  ring_.timing.known = false;
   ring_.first_interval_time = 0;
   ring_.intervals = 0;
   ring_.record_quiet = false;
@@ -179,7 +179,14 @@ void Engine::restart_comparisons() {
     node->counter.nop_records = 0;
     node->counter.nop_moved = false;
     node->counter.still = 0;
-    node->latch.shown = false;
+    node->latch = {};  // it may have completed, or been cancelled
+    node->following.has_base = false;
+    node->inhibit = {};
+    node->off = {};
+    node->profile_watch = {};
+    node->emergency = {};
+    node->multi_turn_frame = 0;
+    node->known.on_lost();
     node->limited_since = {};
     for (ChannelState& channel : node->channels) {
       // A reset may have been let go in the gap: the drives restart.
@@ -315,7 +322,12 @@ void Engine::restart_ring(const Context& context) {
   stop_ring();
 }
 
-void Engine::stop_ring() {
+// A software reset and the new start behind it keep what a reset does not settle (RX520).
+void Engine::stop_ring(bool by_reset) {
+  std::array<std::uint64_t, kMaxNodes> multi_turn = {};
+  for (std::size_t i = 0; i < kMaxNodes; ++i) {
+    if (ring_.nodes[i] != nullptr && (by_reset || !ring_.running)) multi_turn[i] = ring_.nodes[i]->multi_turn_frame;
+  }
   restart_comparisons();
   ring_.running = false;
   ring_.reset_reported = false;
@@ -333,8 +345,8 @@ void Engine::stop_ring() {
     node.alarms.was_warning = node.alarms.known ? node.alarms.warning : node.alarms.was_warning;
     node.alarms.known = false;
     node.profile = {};
-    node.latch = {};
     node.counter = {};
+    node.multi_turn_frame = multi_turn[node.place];
   }
 }
 
@@ -344,11 +356,12 @@ void Engine::end_command_record(const Context& context) {
     for (const auto& node : ring_.all()) all_off = all_off && node != nullptr && !node->servo_on_sent;
     if (all_off) ring_.ever_lost = false;
   }
+  count_timing(context);
   judge_command_record(context);
   learn_ratio(context);
   if (ring_.reset_sent) {
     ring_.reset_sent = false;
-    stop_ring();
+    stop_ring(true);
     ring_.awaiting_start = true;
   }
 }

@@ -23,6 +23,7 @@ Node& Ring::make_node(unsigned place) {
   entry->place = static_cast<std::uint8_t>(place);
   entry->ref = NodeRef{.bus = bus, .protocol = Protocol::kRtex, .place = entry->place};
   entry->owner = findings.owner(entry->ref);
+  entry->eeprom_writes = Hourly(settings.limits.eeprom_writes_per_hour);
   entry->channels[0].id = Channel::kMain;
   entry->channels[1].id = Channel::kSub;
   for (ChannelState& channel : entry->channels) {

@@ -12,6 +12,7 @@
 #include "decoder/core/durations.hpp"
 #include "decoder/core/small_vector.hpp"
 #include "decoder/pipeline/context.hpp"
+#include "decoder/profiles/hourly.hpp"
 #include "decoder/rtex/knowledge.hpp"
 #include "decoder/rtex/machines.hpp"
 #include "decoder/rtex/quiet.hpp"
@@ -39,10 +40,15 @@ struct Hold {
   Moment echo;                  // the first of them
   bool refused = false;         // with CMD_Error
   bool arguments_echoed = false;
-  bool complete = false;         // code, Type_Code and Index echoed, Busy = 0
-  bool ended = false;            // the last echo showed ERR, CMD_Error or an alarm: nothing more is expected
-  bool homing_complete = false;  // an echo showed Homing_Complete = 1
-  bool not_started = false;      // RX301, RX303: the drive does not start it
+  bool complete = false;           // code, Type_Code and Index echoed, Busy = 0
+  bool ended = false;              // the last echo showed ERR, CMD_Error or an alarm: nothing more is expected
+  bool homing_complete = false;    // an echo showed Homing_Complete = 1
+  bool in_progress = false;        // a response since the start showed In_Progress = 1
+  bool stop_bits = false;          // Hard_Stop, Smooth_Stop or Pause was 1
+  bool late_start_judged = false;  // RX527
+  bool position_known = false;     // the actual position when it started
+  std::int32_t position = 0;
+  bool not_started = false;  // RX301, RX303: the drive does not start it
 };
 
 // What the drive is still working on (the catalogue's "Busy").
@@ -108,9 +114,51 @@ struct ProfileState {
 };
 
 struct LatchState {
-  bool started1 = false, started2 = false;
-  bool shown = false;  // Latch_Comp was shown since
+  bool started1 = false, started2 = false;  // by 51h to 53h, not complete or cancelled as far as shown
+  bool shown1 = false, shown2 = false;      // Latch_Comp was shown
   bool complete1 = false, complete2 = false;
+};
+
+// Response_Data1 counts as the actual position on the assumption of Pr7.29 once it has followed the command.
+struct Following {
+  bool has_base = false;
+  std::int32_t base_command = 0, base_position = 0;
+  bool proven = false;
+  std::uint64_t frame = 0;
+};
+
+// RX705: an active drive inhibit input, and what the commands do about it.
+struct InhibitWatch {
+  int direction = 0;        // +1 POT, -1 NOT, 0 neither or both
+  std::uint64_t frame = 0;  // of the response that showed it
+  Basis basis;
+  bool stopped = false;        // the command has stopped or turned round since
+  std::int32_t reference = 0;  // CP: the command position farthest from the input since
+  std::int64_t still = 0;      // CP: records without a change
+  bool toward = false;         // the command at hand goes toward the input
+};
+
+// RX706: the command position while the servo is off.
+struct OffWatch {
+  bool known = false;
+  std::int64_t least = 0;     // smallest distance to the actual position since
+  std::int32_t at_least = 0;  // the command position then
+  std::uint64_t frame_least = 0;
+  std::uint32_t moves = 0;  // away from the actual position since
+  Moment since;
+  bool moves_now = false;
+};
+
+// RX521, RX525: stop bits and a motion without an end.
+struct ProfileWatch {
+  bool stopped = false;  // Hard_Stop or Smooth_Stop rose while In_Progress was 1
+  std::uint64_t stop_frame = 0;
+  Moment endless_since;  // frame 0: not so
+};
+
+struct EmergencyInput {
+  bool known = false;
+  bool active = false;
 };
 
 struct AlarmState {
@@ -139,13 +187,8 @@ struct SystemString {
   std::size_t length = 0;
 };
 
-struct UnsavedWrite {
-  std::uint16_t index = 0;
-  Attribute attribute = Attribute::kUnknown;
-  std::uint64_t frame = 0;
-  bool active = false;  // no reset or validation is needed any more
-  bool saved = false;   // in the EEPROM
-};
+// A place for each non-cyclic command but the standard one, in the order of kNonCyclicNames.
+using CommandDurations = std::array<Durations, std::size(kNonCyclicNames) - 1>;
 
 struct Node {
   std::uint8_t place = 0;
@@ -205,10 +248,17 @@ struct Node {
   CounterState counter;
   ProfileState profile;
   LatchState latch;
+  Following following;
+  InhibitWatch inhibit;
+  OffWatch off;
+  ProfileWatch profile_watch;
+  EmergencyInput emergency;
+  std::uint64_t multi_turn_frame = 0;  // RX520: a completed 31h, and the control power was not off since
+  Hourly eeprom_writes{-1};
   AlarmState alarms;
   SmallVector<Judged, 16> judged;  // the master's latest faults, for causes
   std::array<SystemString, 12> strings;
-  std::array<std::unique_ptr<Durations>, 16> echo_times, done_times;  // by non-cyclic code
+  CommandDurations echo_times, done_times;
 
   ChannelState& main() { return channels[0]; }
   ChannelState& sub() { return channels[1]; }
@@ -219,6 +269,22 @@ struct Learnt {
   std::int64_t value = 0;
   Basis basis;
   explicit operator bool() const { return basis.kind != BasisKind::kNone; }
+};
+
+// TMG_CNT of the ring (4-2-1-1): its value is that of most axes.
+struct TimingCount {
+  bool value = false;
+  bool known = false;        // there is a value to compare with
+  bool in_phase = false;     // `toggled` is a toggle, not the first record
+  std::int64_t toggled = 0;  // the cycle of the last toggle, or of the toggle that did not come
+  std::uint64_t toggle_frame = 0;
+  std::uint32_t good = 0, bad = 0;  // toggles in a row, irregularities since the last of them
+  // Of the record being judged
+  enum class Verdict : std::uint8_t { kNone, kInTime, kEarly, kLate } verdict = Verdict::kNone;
+  std::int64_t passed = 0;      // cycles since the last toggle
+  std::uint32_t differing = 0;  // bit n: the node at place n differs from most
+  bool any_set = false;         // in a command other than NOP
+  bool semi_decided = false;    // it is set and does not toggle every 2 ms
 };
 
 struct Ring {
@@ -277,12 +343,7 @@ struct Ring {
   std::uint32_t intervals = 0;
   TimeNs first_interval_time = 0;
 
-  // TMG_CNT
-  bool tmg_seen = false;
-  std::uint64_t tmg_frame = 0;
-  bool tmg_value = false, tmg_known = false, tmg_phase = false;
-  std::int64_t tmg_toggle_cycle = 0, tmg_first_cycle = 0;
-  std::uint32_t tmg_good = 0, tmg_bad = 0;
+  TimingCount timing;
 
   std::array<std::unique_ptr<Node>, kMaxNodes> nodes;
   Durations cycle_times;

@@ -67,6 +67,10 @@ struct Position {
   Basis basis;
 };
 Position actual_position(const Node& node);
+// How far `to` lies from `from`, over the wraparound of 32 bits where that is shorter.
+constexpr std::int64_t apart(std::int32_t to, std::int32_t from) {
+  return static_cast<std::int32_t>(static_cast<std::uint32_t>(to) - static_cast<std::uint32_t>(from));
+}
 // The weaker of two.
 Basis weaker(const Basis& left, const Basis& right);
 // Communication cycles that make up `duration_ns`; 0 where the cycle is not known.
@@ -77,5 +81,15 @@ bool is_homing_search(const CommandPart& part);  // 11h to 1Dh
 DurationNs busy_limit_ns(const Process& process, const Limits& limits);
 bool has_no_busy_limit(const Process& process);
 bool matches(const CommandPart& part, const ResponsePart& answer, bool sub);
+// The command of the main channel that starts.
+bool starts(const Scene& scene, NonCyclic code);
+bool starts(const Scene& scene, NonCyclic code, std::uint16_t type_code);
+bool has_status(const Node& node);                      // the status bits of the last response can be read
+std::uint8_t profile_in_progress(const Node& node);     // its Type_Code, 0 where none is
+bool is_latch_or_homing_profile(std::uint8_t profile);  // 12h, 13h, 31h to 33h
+// The emergency stop input, where byte 3 or monitor 21h of the last response shows it (4-3-4, 6-9-5).
+EmergencyInput emergency_input(const Node& node);
+// Reports the command that starts: its argument bytes, the last response, its Type_Code, where nothing else is given.
+Outcome raise_start(Scene& scene, Report report = {});
 
 }  // namespace servotrace::rtex

@@ -36,13 +36,10 @@ void summarise_node(const Ring& ring, const Node& node, BusSummary& summary) {
     const Known& known = node.known[static_cast<Fact>(i)];
     if (known.certain()) entry.facts.push_back({fact_key(kFacts[i]), std::to_string(known.value), known.basis});
   }
-  for (const ValueName& code : kNonCyclicNames) {
-    const auto place = static_cast<std::size_t>(code.value);
-    const std::string name(code.name);
-    if (node.echo_times[place] != nullptr)
-      append_statistic(summary.statistics, name + " echo", node.ref, *node.echo_times[place]);
-    if (node.done_times[place] != nullptr)
-      append_statistic(summary.statistics, name + " completed", node.ref, *node.done_times[place]);
+  for (std::size_t i = 0; i < node.echo_times.size(); ++i) {
+    const std::string name(kNonCyclicNames[i + 1].name);
+    append_statistic(summary.statistics, name + " echo", node.ref, node.echo_times[i]);
+    append_statistic(summary.statistics, name + " completed", node.ref, node.done_times[i]);
   }
 }
 

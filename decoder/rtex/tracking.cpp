@@ -4,6 +4,43 @@
 namespace servotrace::rtex {
 namespace {
 
+// The attribute in the answer to 040h (6-7-4). A and B cannot be told apart: both act at once.
+Attribute attribute_in(std::uint32_t data) {
+  std::array<std::uint8_t, 4> bytes = {};
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(data >> (8 * i));
+  if (read(slot(kParameterAttributeData, "read_only"), bytes) != 0) return Attribute::kReadOnly;
+  if (read(slot(kParameterAttributeData, "valid_at_reset"), bytes) == 0) return Attribute::kB;
+  return read(slot(kParameterAttributeData, "valid_at_validation"), bytes) != 0 ? Attribute::kC : Attribute::kR;
+}
+
+// What the responses to 5xh and to the latch profiles show of the latches (6-5-4, 6-8-3).
+void track_latch(Scene& scene, const ResponsePart& answer) {
+  LatchState& latch = scene.node->latch;
+  const Hold& hold = scene.channel->hold;
+  const unsigned type = answer.type_code & 0xFFU;
+  const bool homing = answer.is(NonCyclic::kHoming) && type >= 0x50;
+  const bool profile = answer.is(NonCyclic::kProfile) && (type == 0x12 || type == 0x13);
+  if (homing || profile) {
+    const bool first_echo = hold.seen_start && hold.echo.frame == scene.now.frame && !answer.err;
+    if (homing && first_echo && matches(hold.part, answer, false)) {
+      if (type == 0x51 || type == 0x53) latch.started1 = true;
+      if (type == 0x52 || type == 0x53) latch.started2 = true;
+      if (type == 0x54 || type == 0x5C) latch.started1 = false;
+      if (type == 0x58 || type == 0x5C) latch.started2 = false;
+    }
+    latch.shown1 = true;
+    latch.complete1 = answer.latch_comp1;
+    if (homing) {
+      latch.shown2 = true;
+      latch.complete2 = answer.latch_comp2;
+    }
+    if (latch.complete1) latch.started1 = false;
+    if (latch.complete2) latch.started2 = false;
+  } else if (answer.is(NonCyclic::kReset) || (answer.is(NonCyclic::kHoming) && type < 0x50)) {
+    latch.started1 = latch.started2 = false;  // cancelled (6-5-4)
+  }
+}
+
 // A completed parameter command (6-7).
 void track_parameter(Scene& scene, const CommandPart& part, const ResponsePart& answer) {
   Node& node = *scene.node;
@@ -13,8 +50,11 @@ void track_parameter(Scene& scene, const CommandPart& part, const ResponsePart& 
       node.known.on_read(part.index, value, scene.now.frame);
       break;
     case kParameterWrite:
-      if (!answer.err) node.known.on_write(part.index, value, attribute_of(part.index), scene.now.frame);
+      if (!answer.err) node.known.on_write(part.index, value, node.known.attribute(part.index), scene.now.frame);
       break;
+    case kParameterAttribute:
+      if (!answer.err) node.known.on_attribute(part.index, attribute_in(answer.data));
+      return;
     case kEepromWrite:
     case kEepromWriteConventional:
       if (!answer.err) node.known.on_eeprom_write();
@@ -46,7 +86,10 @@ void track_answer(Scene& scene, bool completed) {
   if (answer.is(NonCyclic::kProfile))
     node.profile = {true, static_cast<std::uint8_t>(answer.type_code), static_cast<std::uint8_t>(answer.index & 0xFU),
                     0};
+  track_latch(scene, answer);
   if (!completed) return;
+  const bool multi_turn = answer.is(NonCyclic::kHoming) && part.type_code == 0x31 && !answer.err;
+  if (multi_turn) node.multi_turn_frame = scene.now.frame;
   if (answer.is(NonCyclic::kParameter)) track_parameter(scene, part, answer);
   if (answer.is(NonCyclic::kReset) && part.type_code == kValidation && !answer.err) {
     node.known.on_validation();
@@ -66,6 +109,8 @@ void track_status(Scene& scene) {
   } else if (node.limited_since.frame == 0) {
     node.limited_since = scene.now;
   }
+  node.emergency = emergency_input(node);
+  watch_following(scene);
   state.known = true;
   state.alarm = node.response.alarm;
   state.warning = node.response.warning;

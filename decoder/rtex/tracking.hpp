@@ -6,6 +6,9 @@
 
 namespace servotrace::rtex {
 
+// Before the checks of a command block, and after those of a response block: watch.cpp.
+void watch_command(Scene& scene);
+void watch_following(Scene& scene);
 // After the checks of a command block.
 void track_command(Scene& scene);
 // After the checks of an answer of scene.channel; `completed`: the first complete answer of the held command.
