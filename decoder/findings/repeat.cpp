@@ -41,6 +41,16 @@ void Findings::close(OwnerId owner, RuleId rule) {
   owners_[static_cast<std::size_t>(owner)].open[index / 64] &= ~(std::uint64_t{1} << (index % 64));
 }
 
+void Findings::amend(OwnerId owner, RuleId rule, const std::array<std::int64_t, kMaxArguments>& arguments,
+                     const Cause& cause) {
+  for (const RuleState& entry : owners_[static_cast<std::size_t>(owner)].states) {
+    if (entry.rule != rule || entry.finding == kNotKept) continue;
+    findings_[entry.finding].arguments = arguments;
+    findings_[entry.finding].cause = cause;
+    return;
+  }
+}
+
 bool Findings::raise(const RawFrame& frame, const Report& report) {
   const Rule& row = rule_row(report.rule);
   Owner& owner = owners_[static_cast<std::size_t>(report.owner)];

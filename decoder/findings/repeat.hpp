@@ -47,6 +47,9 @@ class Findings {
   // Adds a finding at `frame`, or extends the open episode of the same rule, owner and variant. Returns true where a
   // new finding was added.
   bool raise(const RawFrame& frame, const Report& report);
+  // A later frame says more about the latest finding of `rule` at `owner`: as with its last frame and count, the
+  // finding stays at its frame. Nothing happens where it was not kept.
+  void amend(OwnerId owner, RuleId rule, const std::array<std::int64_t, kMaxArguments>& arguments, const Cause& cause);
   // An opportunity passed without the condition: its episode is over. Cheap where none is open.
   void calm(OwnerId owner, RuleId rule) {
     if (is_open(owner, rule)) close(owner, rule);

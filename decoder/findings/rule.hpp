@@ -38,6 +38,7 @@ enum class ArgumentFormat : std::uint8_t {
   kHex8Name,      // 00000002h (name)
   kDecimalName,   // 3 (name)
   kParameter,     // 0717h as Pr7.23
+  kMainSub,       // 5602h as 86.2 (name)
   kMilliseconds,  // nanoseconds, printed in ms with three places
   kMicroseconds,  // nanoseconds, printed in us with one place
   kBits,          // a set of places or MAC IDs: "1, 4, 7"

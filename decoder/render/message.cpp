@@ -36,6 +36,8 @@ std::string argument_text(const Argument& argument, std::int64_t value) {
       return with_name(fmt::format("{}", value));
     case ArgumentFormat::kParameter:
       return fmt::format("Pr{}.{:02}", unsigned32 >> 8U & 0xFFU, unsigned32 & 0xFFU);
+    case ArgumentFormat::kMainSub:
+      return with_name(fmt::format("{}.{}", unsigned32 >> 8U & 0xFFU, unsigned32 & 0xFFU));
     case ArgumentFormat::kMilliseconds:
       return fmt::format("{:.3f}", static_cast<double>(value) / 1e6);
     case ArgumentFormat::kMicroseconds:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // RX9: what the drive reports (SX-DSV02203 4-3-3, 6-10, 8-1, 8-2).
-#include "decoder/rtex/scene.hpp"
+#include "decoder/rtex/tracking.hpp"
 
 namespace servotrace::rtex::checks {
 namespace {
@@ -43,11 +43,64 @@ constexpr CauseRow kErrorCauses[] = {
     causes(0x0201, rule("RX607")),
 };
 
-// Which faults of the master lead to an alarm at once (8-1).
-constexpr RuleId kAlarmCauses[] = {rule("RX404"), rule("RX407"), rule("RX408"), rule("RX411"), rule("RX502"),
-                                   rule("RX507"), rule("RX508"), rule("RX510"), rule("RX604"), rule("RX402"),
-                                   rule("RX403"), rule("RX102"), rule("RX103"), rule("RX105"), rule("RX107"),
-                                   rule("RX201"), rule("RX202"), rule("RX203")};
+// Which earlier faults an alarm or warning answers (chapter 8; 7-1, 7-2), and how long before it they lie at most.
+struct AlarmCauseRow {
+  std::uint8_t main = 0;  // 0: the code was not read
+  DurationNs within_ns = 0;
+  RuleId rules[20] = {};
+  std::size_t count = 0;
+};
+template <class... Ids>
+constexpr AlarmCauseRow alarm_causes(std::uint8_t main, std::int64_t within_ms, Ids... ids) {
+  return {main, milliseconds(within_ms), {ids...}, sizeof...(ids)};
+}
+constexpr AlarmCauseRow kAlarmCauses[] = {
+    alarm_causes(0, 100, rule("RX404"), rule("RX407"), rule("RX408"), rule("RX411"), rule("RX502"), rule("RX507"),
+                 rule("RX508"), rule("RX510"), rule("RX604"), rule("RX402"), rule("RX403"), rule("RX102"),
+                 rule("RX103"), rule("RX105"), rule("RX107"), rule("RX201"), rule("RX202"), rule("RX203"),
+                 rule("RX703"), rule("RX518")),
+    alarm_causes(24, 1000, rule("RX702"), rule("RX703"), rule("RX706")),
+    alarm_causes(26, 1000, rule("RX702"), rule("RX703")),
+    alarm_causes(27, 1000, rule("RX504"), rule("RX604"), rule("RX702"), rule("RX703")),
+    alarm_causes(38, 1000, rule("RX518"), rule("RX705")),
+    alarm_causes(83, 1000, rule("RX101"), rule("RX110"), rule("RX108")),
+    alarm_causes(84, 10'000, rule("RX111"), rule("RX112"), rule("RX108")),
+    alarm_causes(86, 1000, rule("RX102"), rule("RX103"), rule("RX105"), rule("RX107"), rule("RX201"), rule("RX202"),
+                 rule("RX203"), rule("RX206")),
+    alarm_causes(90, 10'000, rule("RX207"), rule("RX208")),
+    alarm_causes(91, 1000, rule("RX402"), rule("RX403"), rule("RX404"), rule("RX407"), rule("RX408"), rule("RX411"),
+                 rule("RX502"), rule("RX507"), rule("RX508"), rule("RX510")),
+    alarm_causes(93, 60'000, rule("RX210"), rule("RX611"), rule("RX613")),
+    alarm_causes(0xC0, 1000, rule("RX101"), rule("RX110")),
+    alarm_causes(0xC1, 1000, rule("RX101"), rule("RX110")),
+    alarm_causes(0xC2, 1000, rule("RX201"), rule("RX202"), rule("RX203"), rule("RX206")),
+};
+
+Cause cause_of_alarm(const Scene& scene, std::uint8_t code, TimeNs when) {
+  for (const AlarmCauseRow& row : kAlarmCauses) {
+    if (row.main == code) return scene.cause_among(std::span(row.rules).first(row.count), row.within_ns, when);
+  }
+  return {};
+}
+
+// The present alarm and warning where this response is the answer to an alarm command (6-6-2).
+struct AlarmCode {
+  std::uint8_t main = 0, sub = 0;
+  std::uint8_t warning = 0;
+};
+AlarmCode alarm_code_in(const ResponsePart& answer) {
+  const bool present = answer.is(NonCyclic::kAlarm) && answer.type_code != kAlarmAttribute && answer.index == 0 &&
+                       !answer.busy && !answer.err;
+  if (!present) return {};
+  return {static_cast<std::uint8_t>(answer.data), static_cast<std::uint8_t>(answer.data >> 8),
+          static_cast<std::uint8_t>(answer.data >> 16)};
+}
+
+// The sub number is 0 where the drive does not tell it (Pr7.23 bit 1 = 0).
+std::int64_t in_full(const Node& node, const AlarmCode& code) {
+  const bool told = code.main != 0 && (code.sub != 0 || node.known[Fact::kAlarmSubNumber].certainly(1));
+  return told ? std::int64_t{code.main} << 8 | code.sub : kSubUnknown;
+}
 
 Cause cause_of_error(const Scene& scene, std::uint16_t error_code) {
   for (const CauseRow& row : kErrorCauses) {
@@ -77,9 +130,12 @@ Outcome alarm(Scene& scene) {
   const bool rises = state.known ? !state.alarm : !state.was_alarm;
   if (!rises) return Outcome::kSilent;
   const bool first = !state.known && !state.was_known;
-  return scene.raise({.arguments = {0, kSubUnknown, first ? 1 : 0},
+  const AlarmCode code = alarm_code_in(node.response.main);
+  scene.node->alarms.alarm_open = code.main == 0;
+  scene.node->alarms.alarm_first = first;
+  return scene.raise({.arguments = {code.main, in_full(node, code), first ? 1 : 0},
                       .where = scene.bytes(2, 1),
-                      .cause = scene.cause_among(kAlarmCauses, milliseconds(scene.limits().echo_ms))});
+                      .cause = cause_of_alarm(scene, code.main, scene.now.time_ns)});
 }
 
 Outcome warning(Scene& scene) {
@@ -88,11 +144,13 @@ Outcome warning(Scene& scene) {
   if (!node.response.warning) return Outcome::kPassed;
   const bool rises = state.known ? !state.warning : !state.was_warning;
   if (!rises) return Outcome::kSilent;
-  static constexpr RuleId kCauses[] = {rule("RX201"), rule("RX202"), rule("RX203")};
   const bool first = !state.known && !state.was_known;
-  return scene.raise({.arguments = {0, first ? 1 : 0},
+  const AlarmCode code = alarm_code_in(node.response.main);
+  scene.node->alarms.warning_open = code.warning == 0;
+  scene.node->alarms.warning_first = first;
+  return scene.raise({.arguments = {code.warning, first ? 1 : 0},
                       .where = scene.bytes(2, 1),
-                      .cause = scene.cause_among(kCauses, milliseconds(scene.limits().echo_ms))});
+                      .cause = cause_of_alarm(scene, code.warning != 0 ? code.warning : 0xC2, scene.now.time_ns)});
 }
 
 Outcome processing_error(Scene& scene) {
@@ -158,3 +216,27 @@ Outcome emergency_stop(Scene& scene) {
 }
 
 }  // namespace servotrace::rtex::checks
+
+namespace servotrace::rtex {
+
+void track_alarm_code(Scene& scene) {
+  Node& node = *scene.node;
+  AlarmState& state = node.alarms;
+  const checks::AlarmCode code = checks::alarm_code_in(scene.answer());
+  Findings& findings = scene.ring.findings;
+  if (state.alarm_open && node.response.alarm && code.main != 0) {
+    state.alarm_open = false;
+    const bool at_rise = state.alarm_rise.frame != 0;
+    findings.amend(node.owner, rule("RX902"), {code.main, checks::in_full(node, code), state.alarm_first ? 1 : 0},
+                   checks::cause_of_alarm(scene, code.main, at_rise ? state.alarm_rise.time_ns : scene.now.time_ns));
+  }
+  if (state.warning_open && node.response.warning && code.warning != 0) {
+    state.warning_open = false;
+    const bool at_rise = state.warning_rise.frame != 0;
+    findings.amend(
+        node.owner, rule("RX903"), {code.warning, state.warning_first ? 1 : 0},
+        checks::cause_of_alarm(scene, code.warning, at_rise ? state.warning_rise.time_ns : scene.now.time_ns));
+  }
+}
+
+}  // namespace servotrace::rtex

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "decoder/link/rtex_record.hpp"
+#include "decoder/rtex/derived.hpp"
 
 namespace servotrace::rtex {
 namespace {
@@ -120,9 +121,15 @@ constexpr auto kAll = [] {
   return all;
 }();
 
+constexpr auto kDerived = [] {
+  std::array<const Field*, 2 + kSystemIdCount> all{&kEchoTimeField, &kCompletionTimeField};
+  for (std::size_t i = 0; i < kSystemIdCount; ++i) all[2 + i] = &kSystemIds[i].field;
+  return all;
+}();
+
 }  // namespace
 
 std::span<const Layout* const> layouts() { return kAll; }
-std::span<const Field* const> derived() { return {}; }
+std::span<const Field* const> derived() { return kDerived; }
 
 }  // namespace servotrace::rtex

@@ -9,13 +9,14 @@ Outcome Scene::raise(Report report) {
   report.owner = owner;
   const bool fresh = ring.findings.raise(context.frame, report);
   (node != nullptr ? node->quiet.raised : ring.record_raised) = true;
-  if (node != nullptr && rule_row(rule).actor == Actor::kMaster) remember(fresh);
+  const Actor actor = rule_row(rule).actor;
+  if (actor == Actor::kMaster || actor == Actor::kNetwork) remember(fresh);
   return Outcome::kRaised;
 }
 
 // The finding a later report of the drive may answer: of an episode its first frame and its latest time.
 void Scene::remember(bool fresh) {
-  auto& judged = node->judged;
+  auto& judged = node != nullptr ? node->judged : ring.judged;
   if (!fresh) {
     for (Judged& entry : judged) {
       if (entry.rule == rule && entry.owner == owner) {
@@ -32,16 +33,20 @@ void Scene::remember(bool fresh) {
   }
 }
 
-Cause Scene::cause_among(std::span<const RuleId> rules, DurationNs within_ns) const {
-  if (node == nullptr) return {};
-  for (std::size_t i = node->judged.size(); i > 0; --i) {
-    const Judged& entry = node->judged[i - 1];
-    if (elapsed_ns(entry.time_ns, now.time_ns) > within_ns) continue;
-    for (const RuleId candidate : rules) {
-      if (candidate == entry.rule) return {entry.rule, entry.frame};
+Cause Scene::cause_among(std::span<const RuleId> rules, DurationNs within_ns, TimeNs when) const {
+  const Judged* latest = nullptr;
+  const auto look_in = [&](std::span<const Judged> judged) {
+    for (const Judged& entry : judged) {
+      const DurationNs before = elapsed_ns(entry.time_ns, when);
+      if (before < 0 || before > within_ns || (latest != nullptr && entry.frame < latest->frame)) continue;
+      for (const RuleId candidate : rules) {
+        if (candidate == entry.rule) latest = &entry;
+      }
     }
-  }
-  return {};
+  };
+  if (node != nullptr) look_in({node->judged.begin(), node->judged.size()});
+  look_in({ring.judged.begin(), ring.judged.size()});
+  return latest == nullptr ? Cause{} : Cause{latest->rule, latest->frame};
 }
 
 Basis weaker(const Basis& left, const Basis& right) {

@@ -6,13 +6,14 @@
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <string>
+#include <string_view>
 #include <vector>
 
 #include "decoder/core/durations.hpp"
 #include "decoder/core/small_vector.hpp"
 #include "decoder/pipeline/context.hpp"
 #include "decoder/profiles/hourly.hpp"
+#include "decoder/rtex/derived.hpp"
 #include "decoder/rtex/knowledge.hpp"
 #include "decoder/rtex/machines.hpp"
 #include "decoder/rtex/quiet.hpp"
@@ -165,9 +166,8 @@ struct AlarmState {
   bool known = false;  // a status was seen in this run
   bool alarm = false, warning = false;
   bool was_known = false, was_alarm = false, was_warning = false;  // in the run before
-  std::uint8_t main = 0;                                           // as read, 0: not read
-  std::uint8_t sub = 0;
-  std::uint16_t warning_code = 0;
+  bool alarm_open = false, warning_open = false;                   // RX902, RX903 were said without a code
+  bool alarm_first = false, warning_first = false;                 // and as set since before the capture
   Moment alarm_rise, warning_rise;
 };
 
@@ -180,11 +180,13 @@ struct Judged {
 
 // A string read four characters at a time (6-4).
 struct SystemString {
-  std::uint16_t type_code = 0;  // new code
-  std::array<char, 64> text{};
-  std::uint32_t have = 0;  // bit n: Index n was read
-  bool complete = false;
+  static constexpr unsigned kParts = 16;
+  std::array<char, 4 * kParts> parts{};  // of the read that goes on
+  std::uint32_t have = 0;                // bit n: Index n was read
+  std::array<char, 4 * kParts> text{};   // of the last read that came to its end
   std::size_t length = 0;
+  std::uint64_t frame = 0;  // that completed it; 0: none did
+  std::string_view view() const { return {text.data(), length}; }
 };
 
 // A place for each non-cyclic command but the standard one, in the order of kNonCyclicNames.
@@ -256,8 +258,8 @@ struct Node {
   std::uint64_t multi_turn_frame = 0;  // RX520: a completed 31h, and the control power was not off since
   Hourly eeprom_writes{-1};
   AlarmState alarms;
-  SmallVector<Judged, 16> judged;  // the master's latest faults, for causes
-  std::array<SystemString, 12> strings;
+  SmallVector<Judged, 16> judged;  // the latest faults of master and network, for causes
+  std::array<SystemString, kSystemIdCount> strings;
   CommandDurations echo_times, done_times;
 
   ChannelState& main() { return channels[0]; }
@@ -345,6 +347,7 @@ struct Ring {
 
   TimingCount timing;
 
+  SmallVector<Judged, 16> judged;  // the latest faults of the whole ring
   std::array<std::unique_ptr<Node>, kMaxNodes> nodes;
   Durations cycle_times;
 

@@ -120,7 +120,14 @@ inline constexpr ValueName kChannelNames[] = {{0, "main"}, {1, "sub"}};
 inline constexpr ValueName kSinceNames[] = {{0, "rises"}, {1, "is set in the first response of the capture"}};
 // Argument values of RX902 where the code was not read.
 inline constexpr std::int64_t kSubUnknown = -1;
-inline constexpr ValueName kAlarmSubNames[] = {{kSubUnknown, "not known"}};
+// Main and sub number: main << 8 | sub.
+inline constexpr auto kAlarmFullNames = [] {
+  std::array<ValueName, std::size(kAlarms) + 1> names{};
+  names[0] = {kSubUnknown, "not known", {}};
+  for (std::size_t i = 0; i < std::size(kAlarms); ++i)
+    names[i + 1] = {std::int64_t{kAlarms[i].main} << 8 | kAlarms[i].sub, kAlarms[i].name, {}};
+  return names;
+}();
 inline constexpr auto kAlarmCodeNames = [] {
   auto names = std::to_array(kAlarmMainNames);
   names[0].name = "code not read";
@@ -1554,9 +1561,9 @@ inline constexpr auto kRules = std::to_array<RtexRule>({
              .severity = Severity::kError,
              .actor = Actor::kDrive,
              .title = "The drive is in alarm",
-             .message = "alarm {2}: {0}, sub number {1}",
+             .message = "alarm {2}: {0}; main and sub number: {1}",
              .arguments = {{{ArgumentFormat::kDecimalName, kAlarmCodeNames},
-                            {ArgumentFormat::kDecimalName, kAlarmSubNames},
+                            {ArgumentFormat::kMainSub, kAlarmFullNames},
                             {ArgumentFormat::kName, kSinceNames}}},
              .section = "SX-DSV02203 4-3-3, 8-1",
              .why = "An alarm stops the axis; the drive changes to PP inside and needs a clear or a new start.",

@@ -38,8 +38,11 @@ struct Scene {
   // Reports the check's rule at this frame; rule and owner are filled in.
   Outcome raise(Report report);
   void remember(bool fresh);
-  // The latest fault of the master among `rules` on this node that is not older than `within_ns`.
-  Cause cause_among(std::span<const RuleId> rules, DurationNs within_ns) const;
+  // The latest fault among `rules` on this node or its ring that is not older than `within_ns` at `when`.
+  Cause cause_among(std::span<const RuleId> rules, DurationNs within_ns, TimeNs when) const;
+  Cause cause_among(std::span<const RuleId> rules, DurationNs within_ns) const {
+    return cause_among(rules, within_ns, now.time_ns);
+  }
 };
 
 // --- questions the checks share (questions.cpp) ---------------------------------------------------------------------

@@ -36,6 +36,12 @@ void summarise_node(const Ring& ring, const Node& node, BusSummary& summary) {
     const Known& known = node.known[static_cast<Fact>(i)];
     if (known.certain()) entry.facts.push_back({fact_key(kFacts[i]), std::to_string(known.value), known.basis});
   }
+  for (std::size_t i = 0; i < kSystemIdCount; ++i) {
+    const SystemString& string = node.strings[i];
+    if (string.frame == 0) continue;
+    entry.facts.push_back(
+        {std::string(kSystemIds[i].field.key), std::string(string.view()), {BasisKind::kCapture, string.frame}});
+  }
   for (std::size_t i = 0; i < node.echo_times.size(); ++i) {
     const std::string name(kNonCyclicNames[i + 1].name);
     append_statistic(summary.statistics, name + " echo", node.ref, node.echo_times[i]);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "decoder/rtex/tracking.hpp"
 
+#include <algorithm>
+#include <bit>
+
 namespace servotrace::rtex {
 namespace {
 
@@ -11,6 +14,58 @@ Attribute attribute_in(std::uint32_t data) {
   if (read(slot(kParameterAttributeData, "read_only"), bytes) != 0) return Attribute::kReadOnly;
   if (read(slot(kParameterAttributeData, "valid_at_reset"), bytes) == 0) return Attribute::kB;
   return read(slot(kParameterAttributeData, "valid_at_validation"), bytes) != 0 ? Attribute::kC : Attribute::kR;
+}
+
+void show(Scene& scene, const Field& field, std::int64_t value, std::string_view text = {}) {
+  if (scene.context.dissection == nullptr) return;
+  NodeRef ref = scene.node->ref;
+  ref.channel = scene.channel->id;
+  scene.context.dissection->derived.push_back(
+      {.field = &field, .protocol = "rtex", .value = value, .text = text, .node = ref});
+}
+
+// A non-cyclic command, its first echo, and its answer.
+void show_times(Scene& scene, bool completed) {
+  const Hold& hold = scene.channel->hold;
+  if (scene.context.dissection == nullptr || !hold.seen_start) return;
+  const bool accepted = hold.echoed && hold.echo.frame == scene.now.frame;
+  const bool refused = accepted && hold.refused;
+  if (!accepted && !completed) return;
+  const DurationNs after = elapsed_ns(hold.start.time_ns, scene.now.time_ns);
+  NodeRef ref = scene.node->ref;
+  ref.channel = scene.channel->id;
+  const auto link = [&](LinkKind kind) {
+    scene.context.dissection->links.push_back(
+        {.kind = kind, .frame = hold.start.frame, .after_ns = after, .node = ref});
+  };
+  if (accepted && !refused) {
+    link(LinkKind::kAcceptedIn);
+    show(scene, kEchoTimeField, after);
+  }
+  if (completed || refused) {
+    link(LinkKind::kRequestIn);
+    show(scene, kCompletionTimeField, after);
+  }
+}
+
+// Four characters of a system ID (6-4). A read begins with Index 0; it is complete with the NUL.
+void track_system_id(Scene& scene, const CommandPart& part, const ResponsePart& answer) {
+  const std::size_t place = system_id_place(part.type_code);
+  if (place == kSystemIdCount || part.index >= SystemString::kParts) return;
+  SystemString& string = scene.node->strings[place];
+  if (part.index == 0) string.have = 0;
+  string.have |= 1U << part.index;
+  for (unsigned i = 0; i < 4; ++i)
+    string.parts[4U * part.index + i] = static_cast<char>(answer.data >> (8 * i) & 0xFFU);
+  const std::size_t read_to = 4 * static_cast<std::size_t>(std::countr_one(string.have));  // without a hole
+  const std::string_view so_far(string.parts.data(), std::min(read_to, string.parts.size()));
+  const std::size_t end = so_far.find('\0');
+  if (end == std::string_view::npos) return;
+  string.text = string.parts;
+  string.length = end;
+  string.frame = scene.now.frame;
+  string.have = 0;
+  show(scene, kSystemIds[place].field, 0, string.view());
 }
 
 // What the responses to 5xh and to the latch profiles show of the latches (6-5-4, 6-8-3).
@@ -80,12 +135,15 @@ void track_command(Scene& scene) {
 
 void track_answer(Scene& scene, bool completed) {
   Node& node = *scene.node;
-  if (scene.is_sub()) return;
   const CommandPart& part = scene.channel->hold.part;
   const ResponsePart& answer = scene.answer();
+  show_times(scene, completed);
+  if (completed && answer.is(NonCyclic::kSystemId) && !answer.err) track_system_id(scene, part, answer);
+  if (scene.is_sub()) return;
   if (answer.is(NonCyclic::kProfile))
     node.profile = {true, static_cast<std::uint8_t>(answer.type_code), static_cast<std::uint8_t>(answer.index & 0xFU),
                     0};
+  if (answer.is(NonCyclic::kAlarm)) track_alarm_code(scene);
   track_latch(scene, answer);
   if (!completed) return;
   const bool multi_turn = answer.is(NonCyclic::kHoming) && part.type_code == 0x31 && !answer.err;
@@ -103,7 +161,8 @@ void track_status(Scene& scene) {
   AlarmState& state = node.alarms;
   if (node.response.alarm && !(state.known && state.alarm)) state.alarm_rise = scene.now;
   if (node.response.warning && !(state.known && state.warning)) state.warning_rise = scene.now;
-  if (!node.response.alarm) state.main = state.sub = 0;
+  if (!node.response.alarm) state.alarm_open = false;
+  if (!node.response.warning) state.warning_open = false;
   if (!node.response.torque_limited) {
     node.limited_since = {};
   } else if (node.limited_since.frame == 0) {

@@ -13,6 +13,8 @@ void watch_following(Scene& scene);
 void track_command(Scene& scene);
 // After the checks of an answer of scene.channel; `completed`: the first complete answer of the held command.
 void track_answer(Scene& scene, bool completed);
+// An answer of the alarm command: gives RX902 and RX903 the code they were said without (checks_report.cpp).
+void track_alarm_code(Scene& scene);
 // After the checks of a response block.
 void track_status(Scene& scene);
 // Puts the status and Response_Data1 of `last` into `response`, zero where there is none.
