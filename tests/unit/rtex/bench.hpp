@@ -78,8 +78,9 @@ class Bench {
   bool send_response = true;
   bool sequence_valid = true, cycle_valid = true, sampled = false;
   std::uint32_t sequence = 0;
-  DurationNs extra_ns = 0;                                     // added once before the next command
-  std::function<void(std::size_t, MutableBytes)> on_response;  // changes a response block before it is recorded
+  DurationNs extra_ns = 0;                                         // added once before the next command
+  std::function<void(std::size_t, MutableBytes)> on_response;      // changes a response block before it is recorded
+  std::function<void(std::uint64_t, const Dissection&)> on_frame;  // what the frame became
 
   void cycles(unsigned number) {
     for (unsigned n = 0; n < number; ++n) cycle();
@@ -208,14 +209,17 @@ class Bench {
       if (response && on_response) on_response(i, block);
       bytes.insert(bytes.end(), block.begin(), block.begin() + (places_[i].wide ? 32 : 16));
     }
-    pipeline_.push(RawFrame{.number = ++frame_,
-                            .time_ns = time_ + (response ? cycle_ns_ / 5 : 0),
-                            .link_type = LinkType::kUser0,
-                            .bytes = bytes,
-                            .original_length = static_cast<std::uint32_t>(bytes.size())});
+    const RawFrame frame{.number = ++frame_,
+                         .time_ns = time_ + (response ? cycle_ns_ / 5 : 0),
+                         .link_type = LinkType::kUser0,
+                         .bytes = bytes,
+                         .original_length = static_cast<std::uint32_t>(bytes.size())};
+    pipeline_.push(frame, on_frame ? &dissection_ : nullptr);
+    if (on_frame) on_frame(frame_, dissection_);
   }
 
   Pipeline pipeline_;
+  Dissection dissection_;
   DurationNs cycle_ns_;
   std::vector<Place> places_;
   TimeNs time_ = seconds(1'700'000'000);

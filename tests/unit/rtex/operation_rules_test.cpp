@@ -368,7 +368,7 @@ TEST(OperationRules, ParameterDiffersFromRing) {
     std::uint16_t index;
     std::int32_t value;
     bool raised;
-  } rows[] = {{0x0714, 3, false}, {0x0714, 6, true}, {0x0715, 1, false}, {0x0715, 2, true},
+  } rows[] = {{0x0714, 3, false},    {0x0714, 6, true}, {0x0715, 1, false}, {0x0715, 2, true},
               {0x0716, 0x10, false}, {0x0716, 1, true}, {0x0717, 1, false}};
   for (const auto& row : rows) {
     Bench bench;
