@@ -39,7 +39,7 @@ std::vector<Advice> advice_for(const Finding& finding, std::int64_t code, std::i
   std::vector<Advice> list;
   const std::string_view id = rule_row(finding.rule).id;
   if (id == "RX902") {
-    rtex_alarm(code, finding.arguments[0] > 0 ? finding.arguments[1] : 0, likely_sub, list);
+    rtex_alarm(code, finding.arguments[1] > 0 ? finding.arguments[1] & 0xFF : 0, likely_sub, list);
   } else if (id == "RX901") {
     if (const ValueName* row = find_value(rtex::kCommandErrors, code); row != nullptr) {
       list.push_back({.name = fmt::format("{:04X}h {}", row->value, row->name),
