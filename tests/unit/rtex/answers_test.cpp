@@ -198,5 +198,42 @@ TEST(Answers, CommandsAreLinkedToEchoAndAnswer) {
   EXPECT_EQ(times, (std::vector<std::int64_t>{1'100'000, 2'600'000}));
 }
 
+// A read of Pr7.30 or Pr7.35 says what the data words hold from then on, not before.
+TEST(Answers, MonitorsAndFeedforwardAreLearnt) {
+  Bench bench;
+  std::string response2, command3;
+  bench.on_frame = [&](std::uint64_t, const Dissection& dissection) {
+    for (const Segment& segment : dissection.segments) {
+      if (segment.offset == 24 + 8 && segment.direction == Direction::kResponse)
+        response2 = segment.layout->fields.front().key;
+      if (segment.offset == 24 + 12 && segment.direction == Direction::kCommand)
+        command3 = segment.layout->fields.front().key;
+    }
+  };
+  bench.cycles(5);
+  EXPECT_EQ(response2, "actual_speed");
+  EXPECT_EQ(command3, "command_data3");
+  bench.at(0).data = 0x0C;
+  exchange(bench, 6, 0x010, 0x071E);
+  EXPECT_EQ(response2, "command_velocity");
+  bench.at(0).data = 2;
+  exchange(bench, 6, 0x010, 0x0723);
+  EXPECT_EQ(command3, "torque_feedforward");
+}
+
+TEST(Answers, MonitorsAndFeedforwardAreConfigured) {
+  Bench bench(1, with({{0x071F, 0x62}, {0x0723, 1}}));
+  std::string response3, command3;
+  bench.on_frame = [&](std::uint64_t, const Dissection& dissection) {
+    for (const Segment& segment : dissection.segments) {
+      if (segment.offset != 24 + 12) continue;
+      (segment.direction == Direction::kResponse ? response3 : command3) = segment.layout->fields.front().key;
+    }
+  };
+  bench.cycles(5);
+  EXPECT_EQ(response3, "driver_temperature");
+  EXPECT_EQ(command3, "velocity_feedforward");
+}
+
 }  // namespace
 }  // namespace servotrace::rtex::test
