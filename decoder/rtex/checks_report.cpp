@@ -66,14 +66,14 @@ constexpr AlarmCauseRow kAlarmCauses[] = {
     alarm_causes(83, 1000, rule("RX101"), rule("RX110"), rule("RX108")),
     alarm_causes(84, 10'000, rule("RX111"), rule("RX112"), rule("RX108")),
     alarm_causes(86, 1000, rule("RX102"), rule("RX103"), rule("RX105"), rule("RX107"), rule("RX201"), rule("RX202"),
-                 rule("RX203"), rule("RX206")),
+                 rule("RX203")),
     alarm_causes(90, 10'000, rule("RX207"), rule("RX208")),
     alarm_causes(91, 1000, rule("RX402"), rule("RX403"), rule("RX404"), rule("RX407"), rule("RX408"), rule("RX411"),
                  rule("RX502"), rule("RX507"), rule("RX508"), rule("RX510")),
     alarm_causes(93, 60'000, rule("RX210"), rule("RX611"), rule("RX613")),
     alarm_causes(0xC0, 1000, rule("RX101"), rule("RX110")),
     alarm_causes(0xC1, 1000, rule("RX101"), rule("RX110")),
-    alarm_causes(0xC2, 1000, rule("RX201"), rule("RX202"), rule("RX203"), rule("RX206")),
+    alarm_causes(0xC2, 1000, rule("RX201"), rule("RX202"), rule("RX203")),
 };
 
 Cause cause_of_alarm(const Scene& scene, std::uint8_t code, TimeNs when) {

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "decoder/core/durations.hpp"
+#include "decoder/core/hourly.hpp"
 #include "decoder/core/small_vector.hpp"
 #include "decoder/pipeline/context.hpp"
-#include "decoder/profiles/hourly.hpp"
 #include "decoder/rtex/derived.hpp"
 #include "decoder/rtex/knowledge.hpp"
 #include "decoder/rtex/machines.hpp"

@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "decoder/core/durations.hpp"
+#include "decoder/core/hourly.hpp"
 #include "decoder/profiles/drive_base.hpp"
-#include "decoder/profiles/hourly.hpp"
 #include "decoder/profiles/nsk_esb/alarms.hpp"
 #include "decoder/profiles/nsk_esb/assemblies.hpp"
 #include "decoder/profiles/nsk_esb/handshake.hpp"

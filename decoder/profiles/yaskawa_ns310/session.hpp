@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "decoder/core/durations.hpp"
+#include "decoder/core/hourly.hpp"
 #include "decoder/profiles/drive_base.hpp"
-#include "decoder/profiles/hourly.hpp"
 #include "decoder/profiles/yaskawa_ns310/assemblies.hpp"
 #include "decoder/profiles/yaskawa_ns310/blocks.hpp"
 #include "decoder/profiles/yaskawa_ns310/rule_names.hpp"
