@@ -70,6 +70,7 @@ class Engine {
 
   // timing.cpp: RX207 to RX209
   void count_timing(const Context& context);
+  void step_timing(const Context& context, bool value);
   void learn_timing(const Context& context);
 
   // handshake.cpp

@@ -135,7 +135,7 @@ struct InhibitWatch {
   Basis basis;
   bool stopped = false;        // the command has stopped or turned round since
   std::int32_t reference = 0;  // CP: the command position farthest from the input since
-  std::int64_t still = 0;      // CP: records without a change
+  std::int64_t changed = 0;    // CP: the cycle of the last change
   bool toward = false;         // the command at hand goes toward the input
 };
 
@@ -286,6 +286,7 @@ struct TimingCount {
   std::int64_t passed = 0;      // cycles since the last toggle
   std::uint32_t differing = 0;  // bit n: the node at place n differs from most
   bool any_set = false;         // in a command other than NOP
+  bool is_used = false;         // in full-synchronous mode
   bool semi_decided = false;    // it is set and does not toggle every 2 ms
 };
 

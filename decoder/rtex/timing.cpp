@@ -28,6 +28,11 @@ Learnt mode_of(const Ring& ring) {
 void Engine::count_timing(const Context& context) {
   TimingCount& timing = ring_.timing;
   timing.verdict = TimingCount::Verdict::kNone;
+  if (ring_.awake == 0 && timing.known && ring_.record_quiet) {  // every block is as it was
+    if (timing.is_used || timing.any_set) step_timing(context, timing.value);
+    return;
+  }
+  timing.is_used = mode_of(ring_).value == 1;
   timing.differing = 0;
   timing.any_set = false;
   unsigned active = 0;
@@ -61,6 +66,12 @@ void Engine::count_timing(const Context& context) {
     timing.toggle_frame = context.frame.number;
     return;
   }
+  step_timing(context, value);
+}
+
+void Engine::step_timing(const Context& context, bool value) {
+  TimingCount& timing = ring_.timing;
+  const std::int64_t period = cycles_in(ring_, milliseconds(2));
   timing.passed = ring_.cycle - timing.toggled;
   const bool toggles = value != timing.value;
   timing.value = value;
@@ -74,6 +85,7 @@ void Engine::count_timing(const Context& context) {
   } else {
     return;
   }
+  ring_.record_quiet = false;  // there is something to judge
   timing.toggled = ring_.cycle;
   if (toggles) timing.toggle_frame = context.frame.number;
   learn_timing(context);

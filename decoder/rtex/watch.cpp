@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::int64_t kFollowUnits = 1000;        // the catalogue's proof that Response_Data1 is the actual position
 constexpr DurationNs kStillNs = milliseconds(20);  // a command that has not changed for so long has stopped
-constexpr std::int64_t kStillWithoutCycle = 40;    // records, where the cycle is not known
+constexpr std::int64_t kStillWithoutCycle = 40;    // cycles, where their time is not known
 
 std::int64_t magnitude(std::int64_t value) { return value < 0 ? -value : value; }
 bool is_profile_homing(const CommandView& command) {
@@ -16,7 +16,7 @@ bool is_profile_homing(const CommandView& command) {
 }
 
 // The drive inhibit input that is active, from the last response (4-3-4).
-void find_inhibit(Node& node) {
+void find_inhibit(Node& node, std::int64_t cycle) {
   const Known& setup = node.known[Fact::kInhibitSetup];
   const Known& swapped = node.known[Fact::kInhibitSwapped];
   const Known& inverted = node.known[Fact::kInhibitInverted];
@@ -30,6 +30,7 @@ void find_inhibit(Node& node) {
   node.inhibit = {};
   node.inhibit.direction = direction;
   node.inhibit.frame = node.response_frame;
+  node.inhibit.changed = cycle;
   node.inhibit.basis = weaker(setup.basis, weaker(swapped.basis, inverted.basis));
 }
 
@@ -39,16 +40,17 @@ void watch_inhibit_position(Scene& scene) {
   const std::int32_t position = node.command.data1;
   if (!node.comparable || !node.previous.is(Cyclic::kCp)) {
     watch.stopped = watch.toward = false;
-    watch.still = 0;
+    watch.changed = scene.now.cycle;
     return;
   }
   const std::int64_t step = apart(position, node.previous.data1) * watch.direction;
   if (!watch.stopped) {
-    watch.still = step == 0 ? watch.still + 1 : 0;
-    const std::int64_t cycles = cycles_in(scene.ring, kStillNs);
-    watch.stopped = step < 0 || watch.still >= (cycles == 0 ? kStillWithoutCycle : cycles);
-    watch.reference = position;
-    return;
+    const std::int64_t needed = cycles_in(scene.ring, kStillNs);
+    const bool stood = scene.now.cycle - watch.changed > (needed == 0 ? kStillWithoutCycle : needed);
+    watch.stopped = step < 0 || stood;
+    watch.reference = step < 0 ? position : node.previous.data1;
+    if (step != 0) watch.changed = scene.now.cycle;
+    if (!watch.stopped) return;
   }
   if (apart(position, watch.reference) * watch.direction < 0) watch.reference = position;
   watch.toward = apart(position, watch.reference) * watch.direction > scene.limits().inhibit_units;
@@ -71,13 +73,13 @@ bool starts_toward(const Node& node) {
 
 void watch_inhibit(Scene& scene) {
   Node& node = *scene.node;
-  find_inhibit(node);
+  find_inhibit(node, scene.now.cycle);
   InhibitWatch& watch = node.inhibit;
   const CommandView& command = node.command;
   if (watch.direction == 0) return;
   if (is_homing(command.main) || is_profile_homing(command)) {
     watch.stopped = watch.toward = false;
-    watch.still = 0;
+    watch.changed = scene.now.cycle;
     return;
   }
   switch (static_cast<Cyclic>(command.cyclic)) {
