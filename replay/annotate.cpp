@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <vector>
 
+#include "replay/capture/cooked_can.hpp"
 #include "replay/capture/pcapng_writer.hpp"
 #include "replay/commands.hpp"
 #include "replay/console.hpp"
@@ -30,7 +31,8 @@ class Annotator : public FrameVisitor {
       writer_.add_interface(source.interfaces()[i].link_type, source.interfaces()[i].name);
     }
     interfaces_ = source.interfaces().size();
-    held_.assign(frame.bytes.begin(), frame.bytes.end());
+    const Bytes bytes = as_little_endian(frame, turned_);
+    held_.assign(bytes.begin(), bytes.end());
     frame_ = frame;
     has_frame_ = true;
     add(pipeline);
@@ -71,6 +73,7 @@ class Annotator : public FrameVisitor {
   const Source* source_ = nullptr;
   std::size_t interfaces_ = 0;
   std::vector<std::uint8_t> held_;
+  std::vector<std::uint8_t> turned_;
   RawFrame frame_;
   bool has_frame_ = false;
   std::string comment_;
@@ -91,9 +94,13 @@ int run_annotate(const Arguments& arguments) {
   app.add_option("CAPTURE", capture, "A file, or - for standard input")->required();
   app.add_option("-o,--output", out_path, "The capture to write (.pcapng)")->required()->type_name("FILE");
   capture_options.add_to(app);
-  app.add_option("--select", select, "Only these rules: ids or prefixes (RX3, DN)")->type_name("RULES");
-  app.add_option("--ignore", ignore, "Not these rules: ids or prefixes")->type_name("RULES");
-  app.add_option("--actor", actors, "Only findings of these: master, drive, network, capture")->type_name("ACTORS");
+  app.add_option("--select", select, "Only these rules: ids or prefixes (RX3, DN)")
+      ->type_name("RULES")
+      ->allow_extra_args(false);
+  app.add_option("--ignore", ignore, "Not these rules: ids or prefixes")->type_name("RULES")->allow_extra_args(false);
+  app.add_option("--actor", actors, "Only findings of these: master, drive, network, capture")
+      ->type_name("ACTORS")
+      ->allow_extra_args(false);
   app.footer(
       "Exit status: 0 done, 2 could not do the job.\n\n"
       "Example:\n  servotrace annotate run.pcapng -o run.annotated.pcapng\n"

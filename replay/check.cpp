@@ -266,16 +266,22 @@ int run_check(const Arguments& arguments) {
   app.add_option("--interface", options.interface, "Check live traffic of this interface until Ctrl-C")
       ->type_name("NAME");
   capture_options.add_to(app);
-  app.add_option("--select", options.select, "Only these rules: ids or prefixes (RX3, DN)")->type_name("RULES");
-  app.add_option("--ignore", options.ignore, "Not these rules: ids or prefixes")->type_name("RULES");
+  app.add_option("--select", options.select, "Only these rules: ids or prefixes (RX3, DN)")
+      ->type_name("RULES")
+      ->allow_extra_args(false);
+  app.add_option("--ignore", options.ignore, "Not these rules: ids or prefixes")
+      ->type_name("RULES")
+      ->allow_extra_args(false);
   app.add_option("--actor", options.actors, "Only findings of these: master, drive, network, capture")
-      ->type_name("ACTORS");
+      ->type_name("ACTORS")
+      ->allow_extra_args(false);
   app.add_option("--fail-on", options.fail_on, "Exit with 1 from this severity on: error, warning, note, never")
       ->type_name("SEVERITY")
       ->capture_default_str();
   app.add_option("--output", options.outputs,
                  "Format, or FORMAT=FILE; several times. Formats: " + format_names() + " (default: text)")
       ->type_name("FORMAT[=FILE]")
+      ->allow_extra_args(false)
       ->take_all();
   app.add_option("--baseline", options.baseline, "Accept the findings this file counts; fail on new ones")
       ->type_name("FILE");

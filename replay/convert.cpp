@@ -9,6 +9,7 @@
 #include <map>
 
 #include "decoder/link/rtex_record.hpp"
+#include "replay/capture/cooked_can.hpp"
 #include "replay/capture/pcapng_writer.hpp"
 #include "replay/capture/rtex_log.hpp"
 #include "replay/commands.hpp"
@@ -76,8 +77,8 @@ class Converter {
     const InterfaceInfo& info = source.interfaces()[frame.interface_id];
     if (carrier_ == Carrier::kNone || !whole) {
       // Everything else keeps its bytes: a record that is cut or malformed is evidence, too.
-      writer_.write(interface(frame.interface_id, frame.link_type, info), frame.time_ns, frame.bytes,
-                    frame.original_length);
+      writer_.write(interface(frame.interface_id, frame.link_type, info), frame.time_ns,
+                    as_little_endian(frame, bytes_), frame.original_length);
       return;
     }
     const Bytes record = frame.bytes.subspan(place.offset, place.length);

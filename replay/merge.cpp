@@ -43,6 +43,7 @@ int run_merge(const Arguments& arguments) {
   app.add_option("--output", outputs,
                  "Format, or FORMAT=FILE; several times. Formats: " + format_names() + " (default: jsonl)")
       ->type_name("FORMAT[=FILE]")
+      ->allow_extra_args(false)
       ->take_all();
   app.add_option("--fail-on", fail_on, "JUnit: what is a failure: error, warning, note, never")
       ->type_name("SEVERITY")

@@ -82,7 +82,9 @@ int run_rules(const Arguments& arguments) {
   app.add_option("--format", format, "text, json or markdown")
       ->check(CLI::IsMember({"text", "json", "markdown"}))
       ->capture_default_str();
-  app.add_option("--select", select, "Only these rules: ids or prefixes (RX3, DN)")->type_name("RULES");
+  app.add_option("--select", select, "Only these rules: ids or prefixes (RX3, DN)")
+      ->type_name("RULES")
+      ->allow_extra_args(false);
   if (const std::optional<int> status = parse(app, arguments)) return *status;
   RuleFilter filter;
   if (const Result<void> known = filter.select(split_list(select)); !known) {

@@ -16,6 +16,7 @@ struct Row {
   std::int64_t initial;
   std::int64_t minimum = INT64_MIN;
   std::int64_t maximum = INT64_MAX;
+  std::uint8_t other_size = 0;  // also taken; 0: none
 };
 
 constexpr std::int64_t kFar = 99'999'999;
@@ -111,7 +112,7 @@ constexpr Row kRows[] = {
     {0x64, 72, 2, true, 25, 4, 4'000},
     {0x64, 73, 4, true, 24'000, 1, 240'000},
     {0x64, 90, 2, true, 5, 0, 10'000},
-    {0x64, 91, 2, true, 0},
+    {0x64, 91, 2, true, 0, 0, 100'000, 4},  // its range does not fit its type (B.10)
 };
 
 constexpr Row kServopackRow{0x66, 0, 2, true, 0};
@@ -244,11 +245,12 @@ ExplicitReply Ns310::serve_attribute(const ExplicitRequest& request) {
   }
   if (!row->settable) return ExplicitReply::error(status::kAttributeNotSettable);
   const Bytes bytes = request.data.subspan(1);
+  const bool other = row->other_size != 0 && bytes.size() == row->other_size;
   if (bytes.size() < row->size) return ExplicitReply::error(status::kNotEnoughData);
-  if (bytes.size() > row->size) return ExplicitReply::error(status::kTooMuchData);
+  if (bytes.size() > row->size && !other) return ExplicitReply::error(status::kTooMuchData);
   std::uint32_t raw = 0;
   for (std::size_t i = 0; i < bytes.size(); ++i) raw |= std::uint32_t{bytes[i]} << (8U * i);
-  const std::int64_t value = row->size == 4 ? static_cast<std::int32_t>(raw) : static_cast<std::int64_t>(raw);
+  const std::int64_t value = bytes.size() == 4 ? static_cast<std::int32_t>(raw) : static_cast<std::int64_t>(raw);
   if (value < row->minimum || value > row->maximum) return ExplicitReply::error(status::kInvalidAttributeValue);
   attribute_written(request.class_id, attribute, value);
   return {};

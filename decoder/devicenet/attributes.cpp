@@ -6,6 +6,7 @@
 namespace servotrace::devicenet {
 namespace {
 
+constexpr std::uint16_t kIdentityClass = 1;
 constexpr std::uint16_t kLastStandardClass = 5;
 
 struct Row {
@@ -13,11 +14,16 @@ struct Row {
   const Attribute* attribute = nullptr;
 };
 
-Row find_row(std::span<const ObjectClass> classes, const Request& request) {
+Row find_row(std::span<const ObjectClass> classes, const Request& request, std::size_t size) {
   Row row{find_class(classes, request.class_id), nullptr};
   if (row.object != nullptr && request.attribute >= 0)
-    row.attribute = row.object->find(static_cast<std::uint32_t>(request.attribute));
+    row.attribute = row.object->find(static_cast<std::uint32_t>(request.attribute), size);
   return row;
+}
+Row find_row(std::span<const ObjectClass> classes, const Request& request) { return find_row(classes, request, 0); }
+
+const Attribute* find_class_attribute(const Request& request) {
+  return request.attribute < 0 ? nullptr : class_attributes().find(static_cast<std::uint32_t>(request.attribute));
 }
 
 // The profile's row where it has the attribute, else the standard one.
@@ -31,14 +37,39 @@ Row find_row(const Node& node, const Request& request) {
 
 }  // namespace
 
-const Layout* Bus::value_layout(const Node& node, const Request& request) const {
-  if (request.instance == 0) return nullptr;  // class attributes are others
+const Layout* Bus::value_layout(const Node& node, const Request& request, std::size_t size) const {
   const auto layout_in = [&](std::span<const ObjectClass> classes) -> const Layout* {
-    const Row row = find_row(classes, request);
+    const Row row = find_row(classes, request, size);
     return row.attribute == nullptr ? nullptr : row.object->layout_of(*row.attribute);
   };
+  if (request.instance == 0) {
+    const Attribute* const row = find_class_attribute(request);
+    return row == nullptr ? nullptr : class_attributes().layout_of(*row);
+  }
   const Layout* const own = node.profile == nullptr ? nullptr : layout_in(node.profile->objects);
   return own != nullptr ? own : layout_in(standard_objects());
+}
+
+Values Bus::request_values(const Node& node, const Request& request, std::size_t size) const {
+  Values values;
+  if (request.service == kResetService && request.class_id == kIdentityClass) values.push_back(&kResetType);
+  if (request.service != kSetAttribute) return values;
+  if (const Layout* const layout = value_layout(node, request, size)) values.push_back(layout);
+  return values;
+}
+
+// What the response to `request` returns: the attribute, or of Identity all of them (1 to 7) one behind the other.
+Values Bus::response_values(const Node& node, const Request& request, std::size_t size) const {
+  Values values;
+  if (request.service == kGetAttribute || request.service == kSetAttribute) {
+    if (const Layout* const layout = value_layout(node, request, size)) values.push_back(layout);
+  } else if (request.service == kGetAttributesAll && request.class_id == kIdentityClass && request.instance != 0) {
+    Request one = request;
+    for (one.attribute = 1; one.attribute <= 7; ++one.attribute) {
+      if (const Layout* const layout = value_layout(node, one, 0)) values.push_back(layout);
+    }
+  }
+  return values;
 }
 
 // A drive's session shows the values of attributes its profile lists without layouts.
@@ -54,14 +85,14 @@ void Bus::show_names(const Arrival& arrival, const Node& node, const Request& re
     derive(dissection, kServiceNameField, 0, node.ref, name->name);
   const Row row = find_row(node, request);
   if (row.object != nullptr) derive(dissection, kObjectNameField, 0, node.ref, row.object->name);
-  if (row.attribute != nullptr && request.instance != 0)
-    derive(dissection, kAttributeNameField, 0, node.ref, row.attribute->name);
+  const Attribute* const attribute = request.instance == 0 ? find_class_attribute(request) : row.attribute;
+  if (attribute != nullptr) derive(dissection, kAttributeNameField, 0, node.ref, attribute->name);
 }
 
 // The first that applies of: object, instance, service, attribute, access, length, range.
 void Bus::check_attribute(const Arrival& arrival, Node& node, const Request& request, Bytes data) {
   if (!node.known_drive() || node.profile->objects.empty()) return;
-  const Row row = find_row(node.profile->objects, request);
+  const Row row = find_row(node.profile->objects, request, data.size());
   if (row.object == nullptr && request.class_id <= kLastStandardClass) return;  // the profile leaves it to DeviceNet
   static constexpr RuleId kChecks[] = {rule("DN402"), rule("DN403"), rule("DN404"), rule("DN405")};
   for (const RuleId check : kChecks) checked(check);
@@ -74,6 +105,7 @@ void Bus::check_attribute(const Arrival& arrival, Node& node, const Request& req
                             .owner = node.explicit_owner,
                             .arguments = arguments,
                             .where = where,
+                            .basis = node.drive_basis(),
                             .variant = variant << 48U | std::int64_t{request.class_id} << 32U |
                                        std::int64_t{request.instance} << 16U | (request.attribute & 0xFFFF)});
   };
@@ -127,6 +159,7 @@ void Bus::check_get_of_set_only(const Arrival& arrival, Node& node, const Pendin
          .arguments = {2, request.class_id, request.attribute, request.service},
          .where = arrival.all(),
          .related = {pending.frame, 0},
+         .basis = node.drive_basis(),
          .variant = std::int64_t{2} << 56U | std::int64_t{request.class_id} << 32U | (request.attribute & 0xFFFF),
          .as_note = true});
 }

@@ -7,6 +7,8 @@
 namespace servotrace::devicenet {
 namespace {
 
+constexpr std::int64_t kChangeOfStateTransfer = 4;  // argument 0 of DN301 and DN302
+constexpr std::int64_t kMulticastTransfer = 5;
 constexpr DurationNs kErrorPause = kSecondNs;  // error frames closer together are one finding
 
 // SocketCAN error classes (the low bits of an error frame's identifier) and the controller's details (data byte 1).
@@ -18,6 +20,14 @@ constexpr std::uint32_t kClassRestarted = 0x100;
 constexpr std::uint32_t kClassCounters = 0x200;
 constexpr std::uint32_t kControllerReceiveOverflow = 0x01;
 constexpr std::uint32_t kControllerActive = 0x40;
+
+// The poll identifiers carry change-of-state and cyclic messages of a node that is allocated so.
+std::string_view name_of_message(const Identifier& id, const Node* node) {
+  if (node == nullptr || !node->change_of_state_only()) return id.row->name;
+  if (id.kind() == MessageKind::kPollCommand) return "Change-of-state or cyclic command";
+  if (id.kind() == MessageKind::kPollResponse) return "Change-of-state or cyclic acknowledge";
+  return id.row->name;
+}
 
 }  // namespace
 
@@ -78,6 +88,7 @@ void Bus::make_session(Node& node, const DriveProfile& profile, Recognised how, 
   node.profile = &profile;
   node.recognised = how;
   node.recognised_frame = frame;
+  findings_.set_drive_basis(node.owner, node.drive_basis());
   node.session.reset();
   std::erase(sessions_, &node);
   if (profile.make_session == nullptr) return;
@@ -110,6 +121,8 @@ void Bus::gap() {
     PollConnection& poll = node.poll;
     poll.command.forget();
     poll.response.forget();
+    node.change_of_state_data.transfer.forget();
+    node.multicast_response.transfer.forget();
     poll.awaiting = false;
     poll.has_command = false;
     poll.polled = false;
@@ -218,7 +231,7 @@ void Bus::show_identifier(const Arrival& arrival, const Node* node) const {
   const NodeRef ref = node == nullptr ? NodeRef{.bus = ref_, .protocol = Protocol::kDevicenet} : node->ref;
   dissection->direction = id.row->direction;
   derive(dissection, kIdentifierField, id.value, ref);
-  derive(dissection, kMessageField, 0, ref, id.row->name);
+  derive(dissection, kMessageField, 0, ref, name_of_message(id, node));
   if (id.group == 0) return;
   derive(dissection, kGroupField, id.group, ref);
   derive(dissection, kMessageIdField, id.message_id, ref);
@@ -296,8 +309,15 @@ void Bus::push_data(const Arrival& arrival) {
       push_dynamic(arrival);
       return;
     case MessageKind::kChangeOfState:
-    case MessageKind::kBitStrobeResponse:
+      push_io(arrival, *entry, entry->change_of_state_data, kChangeOfStateTransfer);
+      return;
     case MessageKind::kMulticastPollResponse:
+      push_io(arrival, *entry, entry->multicast_response, kMulticastTransfer);
+      return;
+    case MessageKind::kBitStrobeResponse:  // never above 8 bytes
+      if (data.empty()) derive(dissection, kIdleField, 1, entry->ref);
+      show_plain(arrival, *entry, kIoData);
+      return;
     case MessageKind::kChangeOfStateAck:
       show_plain(arrival, *entry, kIoData);
       return;
@@ -317,7 +337,8 @@ void Bus::push_data(const Arrival& arrival) {
     show(*dissection, base, rest, known, data.size() - known);
   };
   if (kind == MessageKind::kOwnershipRequest || kind == MessageKind::kOwnershipResponse) {
-    show_known(kOwnership, kOwnershipData);
+    const Layout& cut = fits(kOwnershipVendor, data) ? kOwnershipVendor : kOwnershipHead;
+    show_known(fits(kOwnership, data) ? kOwnership : cut, kOwnershipData);
   } else if (kind == MessageKind::kFaultedRequest || kind == MessageKind::kFaultedResponse) {
     show_known(kFaulted, kFaultedData);
   } else {
@@ -349,6 +370,10 @@ void Bus::check_deadlines(const Context& context) {
       if (io_size(*entry, true).fragmented) expire(entry->poll_owner, entry->poll.command, 0, Actor::kMaster);
       if (io_size(*entry, false).fragmented) expire(entry->poll_owner, entry->poll.response, 1, Actor::kDrive);
     }
+    if (entry->change_of_state_data.size)
+      expire(entry->owner, entry->change_of_state_data.transfer, kChangeOfStateTransfer, Actor::kDrive);
+    if (entry->multicast_response.size)
+      expire(entry->owner, entry->multicast_response.transfer, kMulticastTransfer, Actor::kDrive);
     channel(*entry, entry->channel);
     check_watchdog(context, *entry);
   }

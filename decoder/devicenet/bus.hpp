@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // One CAN bus: its nodes, its connections, and what is found on it. One file a subject: bus.cpp (frames, errors, time),
-// start.cpp (Duplicate MAC ID check), poll.cpp, explicit.cpp (requests and responses), effects.cpp (what a successful
-// service changes), attributes.cpp (object tables), unconnected.cpp, summary.cpp.
+// start.cpp (Duplicate MAC ID check), poll.cpp, io.cpp (the other I/O connections), explicit.cpp (requests and
+// responses), effects.cpp (what a successful service changes), attributes.cpp (object tables), unconnected.cpp,
+// summary.cpp.
 #pragma once
 
 #include <array>
@@ -111,6 +112,9 @@ class Bus {
   void check_watchdog(const Context& context, Node& node);
   TimeNs watchdog_deadline_ns(const Node& node) const;
 
+  // io.cpp
+  void push_io(const Arrival& arrival, Node& node, IoStream& stream, std::int64_t transfer);
+
   // explicit.cpp
   void push_explicit(const Arrival& arrival, Node& node, ExplicitChannel& channel, bool request);
   void push_explicit_fragment(const Arrival& arrival, Node& node, ExplicitChannel& channel, bool request);
@@ -146,7 +150,9 @@ class Bus {
   // attributes.cpp
   void check_attribute(const Arrival& arrival, Node& node, const Request& request, Bytes data);
   void check_get_of_set_only(const Arrival& arrival, Node& node, const PendingRequest& pending);
-  const Layout* value_layout(const Node& node, const Request& request) const;
+  const Layout* value_layout(const Node& node, const Request& request, std::size_t size) const;
+  Values request_values(const Node& node, const Request& request, std::size_t size) const;
+  Values response_values(const Node& node, const Request& request, std::size_t size) const;
   bool shown_by_session(const Node& node, const Request& request) const;
   void show_names(const Arrival& arrival, const Node& node, const Request& request) const;
 

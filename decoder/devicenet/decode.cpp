@@ -48,9 +48,52 @@ bool parse_path(Bytes path, Request& request) {
   return true;
 }
 
-bool value_fits(const Layout& layout, std::size_t size) {
-  const bool variable = !layout.fields.empty() && layout.fields.back().width == 0;
-  return variable ? size >= layout.size : size == layout.size;
+// The bytes a value of this layout has at the front of `data`; 0: it does not fit.
+std::size_t value_size(const Layout& layout, Bytes data) {
+  if (!fits(layout, data)) return 0;
+  if (layout.fields.empty() || layout.fields.back().width != 0) return layout.size;
+  if (layout.fields.back().kind != Kind::kText) return data.size();
+  const std::size_t text = load_be(data, 0, 1);  // a SHORT_STRING: its length, its text
+  return text < data.size() ? 1 + text : 0;
+}
+
+// The values one behind the other from `from` on; what is left is no value's.
+void show_values(Dissection& dissection, const Segment& base, Bytes message, std::size_t from, const Values& values) {
+  std::size_t at = from;
+  for (const Layout* value : values) {
+    if (at >= message.size()) return;
+    const std::size_t size = value_size(*value, message.subspan(at));
+    if (size == 0) break;
+    show(dissection, base, *value, at, size);
+    at += size;
+  }
+  show(dissection, base, at == from ? kData : kSurplus, at, message.size() - at);
+}
+
+const Layout* path_layout(std::uint32_t segment) {
+  switch (segment) {
+    case 0x20:
+      return &kPathClass8;
+    case 0x21:
+      return &kPathClass16;
+    case 0x24:
+      return &kPathInstance8;
+    case 0x25:
+      return &kPathInstance16;
+    case 0x30:
+      return &kPathAttribute;
+    default:
+      return nullptr;
+  }
+}
+
+void show_path(Dissection& dissection, const Segment& base, Bytes message, std::size_t from, std::size_t end) {
+  while (from < end) {
+    const Layout* const layout = path_layout(load_be(message, from, 1));
+    const std::size_t size = layout == nullptr ? end - from : layout->size;
+    show(dissection, base, layout == nullptr ? kData : *layout, from, size);
+    from += size;
+  }
 }
 
 }  // namespace
@@ -158,31 +201,31 @@ void show(Dissection& dissection, const Segment& base, const Layout& layout, std
 }
 
 void show_request(Dissection& dissection, const Segment& base, Bytes message, const Request& request,
-                  const Layout* value, bool data_elsewhere) {
+                  const Values& values, bool data_elsewhere) {
   if (request.layout == nullptr) return;
   show(dissection, base, *request.layout, 0, request.layout->size);
   std::size_t shown = request.layout->size;
   if (request.layout == &kPathRequest) {
-    show(dissection, base, kData, shown, request.data_offset - shown);
+    show_path(dissection, base, message, shown, request.data_offset);
     shown = request.data_offset;
   } else if (request.attribute >= 0) {
     show(dissection, base, kAttribute, shown, 1);
     ++shown;
   }
-  const std::size_t rest = message.size() - shown;
   if (data_elsewhere && request.service == kSetAttribute) return;
-  const bool known = value != nullptr && request.service == kSetAttribute && value_fits(*value, rest);
-  show(dissection, base, known ? *value : kData, shown, rest);
+  if (request.malformed == Malformation::kNone && request.service == kGetAttribute) {
+    show(dissection, base, kSurplus, shown, message.size() - shown);
+  } else {
+    show_values(dissection, base, message, shown, values);
+  }
 }
 
 void show_response(Dissection& dissection, const Segment& base, Bytes message, const Response& response,
-                   const Layout* value, bool data_elsewhere) {
+                   const Values& values, bool data_elsewhere) {
   if (response.layout == nullptr) return;
   show(dissection, base, *response.layout, 0, response.layout->size);
-  const std::size_t rest = message.size() - response.layout->size;
   if (data_elsewhere && !response.is_error) return;
-  const bool known = value != nullptr && !response.is_error && value_fits(*value, rest);
-  show(dissection, base, known ? *value : kData, response.layout->size, rest);
+  show_values(dissection, base, message, response.layout->size, response.is_error ? Values{} : values);
 }
 
 }  // namespace servotrace::devicenet

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "decoder/core/small_vector.hpp"
 #include "decoder/devicenet/layouts.hpp"
 #include "decoder/pipeline/dissection.hpp"
 
@@ -61,12 +62,15 @@ Request parse_request(Bytes message, std::uint8_t body_format);
 // `request_service`: of the request it answers, where known (an allocation's answer has a layout of its own).
 Response parse_response(Bytes message, std::optional<std::uint8_t> request_service);
 
-// Adds the segments of a message that lies at `base.offset` of `base.buffer`. `value`: the layout of the attribute's
-// value, or nullptr. Used only where its size fits the data. `data_elsewhere`: the drive's session shows the data.
+// The layouts of the values in a message, in their order; empty where they are not known.
+using Values = SmallVector<const Layout*, 16>;
+
+// Adds the segments of a message that lies at `base.offset` of `base.buffer`. `values`: of the data behind the
+// attribute, or behind the service. `data_elsewhere`: the drive's session shows the data.
 void show_request(Dissection& dissection, const Segment& base, Bytes message, const Request& request,
-                  const Layout* value, bool data_elsewhere);
+                  const Values& values, bool data_elsewhere);
 void show_response(Dissection& dissection, const Segment& base, Bytes message, const Response& response,
-                   const Layout* value, bool data_elsewhere);
+                   const Values& values, bool data_elsewhere);
 // One segment of `layout` over `length` bytes at `offset` behind `base.offset`; nothing where `length` is 0.
 void show(Dissection& dissection, const Segment& base, const Layout& layout, std::size_t offset, std::size_t length);
 

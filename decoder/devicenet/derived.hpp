@@ -43,6 +43,22 @@ inline constexpr Field kAmbiguousField{
     .kind = Kind::kBool,
     .section = kLinkSection,
     .explanation = "the connection size is not known: the first byte is data, or the header of a fragment"};
+inline constexpr Field kRetransmissionField{.key = "retransmission",
+                                            .label = "Retransmission",
+                                            .width = 1,
+                                            .kind = Kind::kBool,
+                                            .section = kLinkSection,
+                                            .explanation = "the last fragment once more"};
+// General and additional code of the answer to an allocation or a release.
+inline constexpr ValueName kAllocationErrorNames[] = {{0x0202, "choice not supported"},
+                                                      {0x0902, "bad choice"},
+                                                      {0x0B02, "already allocated, or not allocated on release"},
+                                                      {0x0C01, "owned by another master"}};
+inline constexpr Field kAllocationErrorField{.key = "allocation_error",
+                                             .label = "Refused because",
+                                             .kind = Kind::kText,
+                                             .section = kLinkSection,
+                                             .explanation = "general and additional code together"};
 inline constexpr Field kServiceNameField{
     .key = "service_name", .label = "Service", .kind = Kind::kText, .section = kLinkSection};
 inline constexpr Field kObjectNameField{

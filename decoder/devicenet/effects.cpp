@@ -12,6 +12,8 @@ constexpr std::uint16_t kIdentityClass = 1;
 constexpr std::uint16_t kDevicenetClass = 3;
 constexpr std::uint16_t kConnectionClass = 5;
 constexpr std::uint16_t kPollInstance = 2;
+constexpr std::uint16_t kChangeOfStateInstance = 4;  // and cyclic
+constexpr std::uint16_t kMulticastInstance = 5;
 constexpr std::uint8_t kDeleteService = 0x09;
 constexpr std::uint32_t kChoiceExplicit = 0x01;
 constexpr std::uint32_t kChoicePoll = 0x02;
@@ -143,12 +145,24 @@ void Bus::packet_rate_set(const Arrival& arrival, Node& node, const PendingReque
   note_deadline(watchdog_deadline_ns(node));
 }
 
-// Connection attributes 7 (produced: the node's responses) and 8 (consumed: the commands to it) of the poll connection.
+// Connection attributes 7 (produced: what the node sends) and 8 (consumed: what it is sent), by connection instance.
 void Bus::size_told(const Arrival& arrival, Node& node, const Request& request, Bytes data) {
-  if (request.instance != kPollInstance || data.size() != 2) return;
+  if (data.size() != 2 || (request.attribute != 7 && request.attribute != 8)) return;
+  const bool produced = request.attribute == 7;
   const Learnt size{load_le(data, 0, 2), arrival.number()};
-  if (request.attribute == 7) node.poll.response_size = size;
-  if (request.attribute == 8) node.poll.command_size = size;
+  switch (request.instance) {
+    case kPollInstance:
+      (produced ? node.poll.response_size : node.poll.command_size) = size;
+      return;
+    case kChangeOfStateInstance:
+      (produced ? node.change_of_state_data.size : node.change_of_state_size) = size;
+      return;
+    case kMulticastInstance:
+      if (produced) node.multicast_response.size = size;
+      return;
+    default:
+      return;
+  }
 }
 
 void Bus::identity_read(const Arrival& arrival, Node& node, const PendingRequest& pending, Bytes data) {
@@ -202,7 +216,8 @@ void Bus::check_motion(const Arrival& arrival, Node& node, const Request& reques
                           .owner = node.owner,
                           .arguments = {release ? 0 : 1, age},
                           .where = arrival.all(),
-                          .related = {node.response_frame, 0}});
+                          .related = {node.response_frame, 0},
+                          .basis = node.drive_basis()});
 }
 
 }  // namespace servotrace::devicenet

@@ -54,6 +54,7 @@ EvidenceKind Evidence::push(const Identifier& id, const can::Frame& frame) {
       if (data.size() != kMacCheck.size || read(slot(kMacCheck, "response"), data) != 0) break;
       const auto vendor = static_cast<std::uint16_t>(read(slot(kMacCheck, "vendor_id"), data));
       const auto serial = static_cast<std::uint32_t>(read(slot(kMacCheck, "serial_number"), data));
+      if (vendor == 0) break;  // nobody's number: a frame of zeros, as other protocols send
       if (node.checked && node.vendor_id == vendor && node.serial_number == serial) return EvidenceKind::kMacChecks;
       node.checked = true;
       node.vendor_id = vendor;

@@ -120,6 +120,7 @@ void Bus::push_explicit_fragment(const Arrival& arrival, Node& node, ExplicitCha
   checked(rule("DN301"));
   checked(rule("DN302"));
   report_fragment(arrival.context, node.explicit_owner, result, kind, type, count, arrival.bytes(1, 1), sender);
+  if (result.again) derive(dissection, kRetransmissionField, 1, node.ref);
   note_transfer(transfer);
   if (result.begins) {
     if (request) {
@@ -151,7 +152,8 @@ void Bus::push_explicit_fragment(const Arrival& arrival, Node& node, ExplicitCha
   }
   PendingRequest* answering = nullptr;
   for (PendingRequest& pending : channel.pending) {
-    if (pending.state == PendingRequest::State::kAnswering && pending.request.header == header) answering = &pending;
+    const bool same = ((pending.request.header ^ header) & channel.header_mask) == 0;
+    if (pending.state == PendingRequest::State::kAnswering && same) answering = &pending;
   }
   handle_response(arrival, node, channel, whole, answering);
 }
@@ -184,7 +186,7 @@ void Bus::request_begins(const Arrival& arrival, Node& node, ExplicitChannel& ch
   if (!overlaps) findings_.calm(node.explicit_owner, rule("DN209"));
   // The response under way to the same request number never ends.
   Transfer& response = channel.response;
-  if (!response.message().empty() && load_be(response.message(), 0, 1) == header) {
+  if (!response.message().empty() && ((load_be(response.message(), 0, 1) ^ header) & channel.header_mask) == 0) {
     report_fragment(arrival.context, node.explicit_owner, response.abandon(), kResponseTransfer, FragmentType::kFirst,
                     0, arrival.all(), Actor::kDrive);
   }
@@ -232,7 +234,7 @@ void Bus::handle_request(const Arrival& arrival, Node& node, ExplicitChannel& ch
   if (arrival.context.dissection != nullptr) {
     show_request(*arrival.context.dissection,
                  {.offset = whole.offset, .buffer = whole.buffer, .node = node.ref, .direction = Direction::kCommand},
-                 whole.bytes, request, value_layout(node, request), shown_by_session(node, request));
+                 whole.bytes, request, request_values(node, request, data.size()), shown_by_session(node, request));
     show_names(arrival, node, request);
   }
   PendingRequest& pending = free_slot(channel);
@@ -284,7 +286,7 @@ PendingRequest* Bus::match(ExplicitChannel& channel, std::uint8_t header, std::u
   PendingRequest* found = nullptr;
   for (PendingRequest& pending : channel.pending) {
     const bool waits = pending.state == PendingRequest::State::kOpen || pending.state == PendingRequest::State::kLate;
-    if (!waits || pending.request.header != header) continue;
+    if (!waits || ((pending.request.header ^ header) & channel.header_mask) != 0) continue;
     if (!is_error && (pending.malformed || pending.request.service != service)) continue;
     if (found == nullptr || pending.time_ns < found->time_ns) found = &pending;
   }
@@ -332,11 +334,11 @@ void Bus::handle_response(const Arrival& arrival, Node& node, ExplicitChannel& c
   }
   if (pending != nullptr) response = parse_response(whole.bytes, pending->request.service);
   const Bytes data = whole.bytes.subspan(std::min<std::size_t>(response.data_offset, whole.bytes.size()));
-  const Layout* value = pending == nullptr ? nullptr : value_layout(node, pending->request);
+  const Values values = pending == nullptr ? Values{} : response_values(node, pending->request, data.size());
   if (arrival.context.dissection != nullptr) {
     show_response(*arrival.context.dissection,
                   {.offset = whole.offset, .buffer = whole.buffer, .node = node.ref, .direction = Direction::kResponse},
-                  whole.bytes, response, value, pending != nullptr && shown_by_session(node, pending->request));
+                  whole.bytes, response, values, pending != nullptr && shown_by_session(node, pending->request));
     if (pending != nullptr) show_names(arrival, node, pending->request);
   }
   const OwnerId owner =
@@ -397,6 +399,11 @@ void Bus::error_response(const Arrival& arrival, Node& node, OwnerId owner, cons
                          const Response& response) {
   const std::uint8_t general = response.general_status;
   const bool allocation = pending != nullptr && pending->request.layout == &kAllocate;
+  if (allocation || (pending != nullptr && pending->request.layout == &kRelease)) {
+    const auto code = static_cast<std::int64_t>(general << 8U | response.additional_status);
+    if (const ValueName* meaning = find_value(kAllocationErrorNames, code))
+      derive(arrival.context.dissection, kAllocationErrorField, code, node.ref, meaning->name);
+  }
   checked(rule("DN401"));
   if (allocation) {
     checked(rule("DN202"));

@@ -69,7 +69,7 @@ FragmentResult Transfer::push(FragmentType type, std::uint8_t count, std::uint8_
       state_ = State::kBroken;
       return result;
     }
-    const bool again = acknowledged_ && state_ == State::kActive && key == key_ && type_ == FragmentType::kFirst;
+    const bool again = acknowledged_ && state_ == State::kActive && !is_other(key) && type_ == FragmentType::kFirst;
     if (again) {  // sent again: it restarts the same message
       const bool silent = !awaiting_ack_;
       const bool was_faulted = faulted_;
@@ -78,6 +78,7 @@ FragmentResult Transfer::push(FragmentType type, std::uint8_t count, std::uint8_
       const TimeNs first_time = first_time_ns_;
       begin(key, payload, frame, time_ns);
       faulted_ = was_faulted || !silent;
+      result.again = true;
       first_frame_ = first;
       first_time_ns_ = first_time;
       return result;
@@ -89,9 +90,10 @@ FragmentResult Transfer::push(FragmentType type, std::uint8_t count, std::uint8_
   }
 
   const bool last = type == FragmentType::kLast;
-  const bool other = acknowledged_ && key != key_;  // of another message than the one known
+  const bool other = acknowledged_ && is_other(key);  // of another message than the one known
   if (state_ == State::kDone && !other && acknowledged_ && last && count == count_) {  // the last one again
     if (awaiting_ack_) result = fault(FragmentFault::kRepeated, count_);
+    result.again = true;
     awaiting_ack_ = true;
     last_time_ns_ = time_ns;
     last_frame_ = frame;
@@ -122,6 +124,7 @@ FragmentResult Transfer::push(FragmentType type, std::uint8_t count, std::uint8_
   }
   if (count == count_ && type == type_ && acknowledged_) {  // a retransmission: acknowledged again, not stored
     if (awaiting_ack_) result = fault(FragmentFault::kRepeated, count_);
+    result.again = true;
     awaiting_ack_ = true;
     last_time_ns_ = time_ns;
     last_frame_ = frame;
@@ -150,7 +153,7 @@ FragmentResult Transfer::push(FragmentType type, std::uint8_t count, std::uint8_
 
 FragmentResult Transfer::acknowledge(std::uint8_t count, std::uint8_t status, std::uint8_t key) {
   FragmentResult result;
-  if ((state_ != State::kActive && state_ != State::kDone) || key != key_) return result;
+  if ((state_ != State::kActive && state_ != State::kDone) || is_other(key)) return result;
   if (status != 0) {  // always a finding of its own
     result.fault = FragmentFault::kAckStatus;
     result.detail = status;

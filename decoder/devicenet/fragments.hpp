@@ -35,13 +35,16 @@ struct FragmentResult {
   FragmentFault fault = FragmentFault::kNone;
   bool complete = false;      // message() is whole now
   bool begins = false;        // a first fragment of a message not seen before
+  bool again = false;         // the last fragment once more
   std::int64_t detail = 0;    // the count expected
   std::uint64_t related = 0;  // frame the fault refers to, 0: none
 };
 
 class Transfer {
  public:
-  explicit Transfer(bool acknowledged) : acknowledged_(acknowledged) {}
+  // `key_mask`: the bits of a key that tell messages apart.
+  explicit Transfer(bool acknowledged, std::uint8_t key_mask = 0xFF)
+      : acknowledged_(acknowledged), key_mask_(key_mask) {}
 
   // A fragment of `payload`. `key` tells messages of one identifier apart (the explicit header; 0 for I/O) and is kept
   // as the message's first byte where the transfer is acknowledged. `mid_stream`: a fragment without its first is no
@@ -82,8 +85,10 @@ class Transfer {
   void begin(std::uint8_t key, Bytes payload, std::uint64_t frame, TimeNs time_ns);
   void store(Bytes payload);
   FragmentResult fault(FragmentFault what, std::int64_t detail = 0);
+  bool is_other(std::uint8_t key) const { return ((key ^ key_) & key_mask_) != 0; }
 
   bool acknowledged_;
+  std::uint8_t key_mask_;
   State state_ = State::kUnknown;
   bool awaiting_ack_ = false;
   bool faulted_ = false;  // one finding a broken transfer

@@ -11,13 +11,16 @@ namespace servotrace::devicenet {
 std::span<const Layout* const> layouts() {
   static const std::vector<const Layout*> kAll = [] {
     std::vector<const Layout*> all{
-        &kMacCheck,     &kHeader,           &kService,       &kRequest88,       &kRequest816,
-        &kRequest1616,  &kRequest168,       &kPathRequest,   &kAttribute,       &kData,
-        &kError,        &kAllocate,         &kRelease,       &kAllocated,       &kFragment,
-        &kFragmentAck,  &kFragmentData,     &kUnconnected,   &kOpenRequest,     &kOpenResponse,
-        &kCloseRequest, &kUnconnectedError, &kShutdown,      &kUnconnectedData, &kFaulted,
-        &kFaultedData,  &kOwnership,        &kOwnershipData, &kIoData,          &kBitStrobe,
-        &kErrorFrame};
+        &kMacCheck,     &kHeader,           &kService,         &kRequest88,       &kRequest816,
+        &kRequest1616,  &kRequest168,       &kPathRequest,     &kAttribute,       &kData,
+        &kError,        &kAllocate,         &kRelease,         &kAllocated,       &kFragment,
+        &kFragmentAck,  &kFragmentData,     &kUnconnected,     &kOpenRequest,     &kOpenResponse,
+        &kCloseRequest, &kUnconnectedError, &kShutdown,        &kUnconnectedData, &kFaulted,
+        &kFaultedData,  &kOwnership,        &kOwnershipVendor, &kOwnershipHead,   &kOwnershipData,
+        &kIoData,       &kBitStrobe,        &kErrorFrame,      &kSurplus,         &kResetType,
+        &kPathClass8,   &kPathClass16,      &kPathInstance8,   &kPathInstance16,  &kPathAttribute,
+        &kHeartbeat};
+    for (const Layout& layout : class_attributes().layouts) all.push_back(&layout);
     for (const ObjectClass& object : standard_objects()) {
       for (const Layout& layout : object.layouts) all.push_back(&layout);
     }
@@ -28,10 +31,10 @@ std::span<const Layout* const> layouts() {
 
 std::span<const Field* const> derived() {
   static constexpr const Field* kAll[] = {
-      &kIdentifierField,  &kGroupField,          &kMessageIdField,     &kMessageField,      &kSourceField,
-      &kDestinationField, &kMulticastGroupField, &kCheckedField,       &kIdleField,         &kAmbiguousField,
-      &kServiceNameField, &kObjectNameField,     &kAttributeNameField, &kResponseTimeField, &kPollIntervalField,
-      &kPollStateField,   &kErrorClassField,     &kScannerCodeField};
+      &kIdentifierField,  &kGroupField,          &kMessageIdField,     &kMessageField,        &kSourceField,
+      &kDestinationField, &kMulticastGroupField, &kCheckedField,       &kIdleField,           &kAmbiguousField,
+      &kServiceNameField, &kObjectNameField,     &kAttributeNameField, &kResponseTimeField,   &kPollIntervalField,
+      &kPollStateField,   &kErrorClassField,     &kScannerCodeField,   &kRetransmissionField, &kAllocationErrorField};
   return kAll;
 }
 

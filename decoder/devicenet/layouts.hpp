@@ -503,6 +503,153 @@ inline constexpr Layout kData{
     .protocol = "dnet", .key = "explicit", .title = "Data", .size = 0, .fields = kDataFields, .section = kLinkSection};
 static_assert(well_formed(kData));
 
+// What follows a value, or a request that takes no data.
+inline constexpr Field kSurplusFields[] = {
+    {.key = "surplus",
+     .label = "Surplus data",
+     .first_bit = at(0),
+     .width = 0,
+     .kind = Kind::kBytes,
+     .section = kLinkSection,
+     .explanation = "more bytes than the service or the attribute has"},
+};
+inline constexpr Layout kSurplus{.protocol = "dnet",
+                                 .key = "explicit",
+                                 .title = "Surplus data",
+                                 .size = 0,
+                                 .fields = kSurplusFields,
+                                 .section = kLinkSection};
+static_assert(well_formed(kSurplus));
+
+inline constexpr ValueName kResetTypeNames[] = {
+    {0, "as switching off and on"},
+    {1, "to the factory settings, then as switching off and on"},
+};
+inline constexpr Field kResetTypeFields[] = {
+    {.key = "reset_type",
+     .label = "Reset type",
+     .first_bit = at(0),
+     .width = 8,
+     .values = kResetTypeNames,
+     .section = kLinkSection},
+};
+inline constexpr Layout kResetType{.protocol = "dnet",
+                                   .key = "explicit",
+                                   .title = "Reset type",
+                                   .size = 1,
+                                   .fields = kResetTypeFields,
+                                   .section = kLinkSection};
+static_assert(well_formed(kResetType));
+
+// The segments of a CIP path: logical ones of 8 bits, and of 16 bits behind a pad byte.
+inline constexpr ValueName kPathSegmentNames[] = {
+    {0x20, "class, 8 bits"},     {0x21, "class, 16 bits"},    {0x24, "instance, 8 bits"},
+    {0x25, "instance, 16 bits"}, {0x30, "attribute, 8 bits"},
+};
+inline constexpr Field kPathClass8Fields[] = {
+    {.key = "segment",
+     .label = "Path segment",
+     .first_bit = at(0),
+     .width = 8,
+     .base = Base::kHex,
+     .values = kPathSegmentNames,
+     .section = kLinkSection},
+    {.key = "class",
+     .label = "Class",
+     .first_bit = at(1),
+     .width = 8,
+     .base = Base::kHex,
+     .values = kClassNames,
+     .section = kLinkSection},
+};
+inline constexpr Layout kPathClass8{.protocol = "dnet",
+                                    .key = "explicit",
+                                    .title = "Path: class",
+                                    .size = 2,
+                                    .fields = kPathClass8Fields,
+                                    .section = kLinkSection};
+static_assert(well_formed(kPathClass8));
+
+inline constexpr Field kPathClass16Fields[] = {
+    {.key = "segment",
+     .label = "Path segment",
+     .first_bit = at(0),
+     .width = 8,
+     .base = Base::kHex,
+     .values = kPathSegmentNames,
+     .section = kLinkSection},
+    {.key = "pad", .label = "Pad", .first_bit = at(1), .width = 8, .base = Base::kHex, .section = kLinkSection},
+    {.key = "class",
+     .label = "Class",
+     .first_bit = at(2),
+     .width = 16,
+     .base = Base::kHex,
+     .values = kClassNames,
+     .section = kLinkSection},
+};
+inline constexpr Layout kPathClass16{.protocol = "dnet",
+                                     .key = "explicit",
+                                     .title = "Path: class",
+                                     .size = 4,
+                                     .fields = kPathClass16Fields,
+                                     .section = kLinkSection};
+static_assert(well_formed(kPathClass16));
+
+inline constexpr Field kPathInstance8Fields[] = {
+    {.key = "segment",
+     .label = "Path segment",
+     .first_bit = at(0),
+     .width = 8,
+     .base = Base::kHex,
+     .values = kPathSegmentNames,
+     .section = kLinkSection},
+    {.key = "instance", .label = "Instance", .first_bit = at(1), .width = 8, .section = kLinkSection},
+};
+inline constexpr Layout kPathInstance8{.protocol = "dnet",
+                                       .key = "explicit",
+                                       .title = "Path: instance",
+                                       .size = 2,
+                                       .fields = kPathInstance8Fields,
+                                       .section = kLinkSection};
+static_assert(well_formed(kPathInstance8));
+
+inline constexpr Field kPathInstance16Fields[] = {
+    {.key = "segment",
+     .label = "Path segment",
+     .first_bit = at(0),
+     .width = 8,
+     .base = Base::kHex,
+     .values = kPathSegmentNames,
+     .section = kLinkSection},
+    {.key = "pad", .label = "Pad", .first_bit = at(1), .width = 8, .base = Base::kHex, .section = kLinkSection},
+    {.key = "instance", .label = "Instance", .first_bit = at(2), .width = 16, .section = kLinkSection},
+};
+inline constexpr Layout kPathInstance16{.protocol = "dnet",
+                                        .key = "explicit",
+                                        .title = "Path: instance",
+                                        .size = 4,
+                                        .fields = kPathInstance16Fields,
+                                        .section = kLinkSection};
+static_assert(well_formed(kPathInstance16));
+
+inline constexpr Field kPathAttributeFields[] = {
+    {.key = "segment",
+     .label = "Path segment",
+     .first_bit = at(0),
+     .width = 8,
+     .base = Base::kHex,
+     .values = kPathSegmentNames,
+     .section = kLinkSection},
+    {.key = "attribute", .label = "Attribute", .first_bit = at(1), .width = 8, .section = kLinkSection},
+};
+inline constexpr Layout kPathAttribute{.protocol = "dnet",
+                                       .key = "explicit",
+                                       .title = "Path: attribute",
+                                       .size = 2,
+                                       .fields = kPathAttributeFields,
+                                       .section = kLinkSection};
+static_assert(well_formed(kPathAttribute));
+
 inline constexpr Field kErrorFields[] = {
     {.key = "master",
      .label = "Master's MAC ID",
@@ -1177,6 +1324,76 @@ inline constexpr Layout kShutdown{.protocol = "dnet",
                                   .section = kLinkSection};
 static_assert(well_formed(kShutdown));
 
+inline constexpr ValueName kDeviceStateNames[] = {
+    {0, "non-existent"}, {1, "self-testing"},      {2, "standby"},
+    {3, "operational"},  {4, "recoverable fault"}, {5, "unrecoverable fault"},
+};
+inline constexpr Field kHeartbeatFields[] = {
+    {.key = "master",
+     .label = "Master's MAC ID",
+     .first_bit = at(0),
+     .width = 6,
+     .section = kLinkSection,
+     .explanation = "MAC ID of the other end: in a request and in its response the master's"},
+    {.key = "xid",
+     .label = "XID",
+     .first_bit = at(0, 6),
+     .width = 1,
+     .section = kLinkSection,
+     .explanation = "transaction, echoed in the response"},
+    {.key = "fragmented",
+     .label = "Fragmented",
+     .first_bit = at(0, 7),
+     .width = 1,
+     .kind = Kind::kBool,
+     .section = kLinkSection},
+    {.key = "service",
+     .label = "Service",
+     .first_bit = at(1),
+     .width = 7,
+     .base = Base::kHex,
+     .values = kUnconnectedServiceNames,
+     .section = kLinkSection},
+    {.key = "response",
+     .label = "Response",
+     .first_bit = at(1, 7),
+     .width = 1,
+     .kind = Kind::kBool,
+     .section = kLinkSection},
+    {.key = "heartbeat_instance",
+     .label = "Identity instance",
+     .first_bit = at(2),
+     .width = 16,
+     .section = kLinkSection},
+    {.key = "device_state",
+     .label = "Device state",
+     .first_bit = at(4),
+     .width = 8,
+     .values = kDeviceStateNames,
+     .section = kLinkSection,
+     .explanation = "as Identity attribute 8"},
+    {.key = "heartbeat_flags",
+     .label = "Event and fault flags",
+     .first_bit = at(5),
+     .width = 8,
+     .base = Base::kHex,
+     .section = kLinkSection},
+    {.key = "consistency",
+     .label = "Configuration consistency value",
+     .first_bit = at(6),
+     .width = 16,
+     .base = Base::kHex,
+     .section = kLinkSection,
+     .explanation = "as Identity attribute 9: changes with the configuration"},
+};
+inline constexpr Layout kHeartbeat{.protocol = "dnet",
+                                   .key = "unconnected",
+                                   .title = "Device heartbeat",
+                                   .size = 8,
+                                   .fields = kHeartbeatFields,
+                                   .section = kLinkSection};
+static_assert(well_formed(kHeartbeat));
+
 inline constexpr Field kUnconnectedDataFields[] = {
     {.key = "data", .label = "Data", .first_bit = at(0), .width = 0, .kind = Kind::kBytes, .section = kLinkSection},
 };
@@ -1273,6 +1490,21 @@ inline constexpr Layout kOwnership{.protocol = "dnet",
                                    .fields = kOwnershipFields,
                                    .section = kLinkSection};
 static_assert(well_formed(kOwnership));
+
+// What a message holds that ends before its serial number, or before its vendor ID.
+inline constexpr Layout kOwnershipVendor{.protocol = "dnet",
+                                         .key = "ownership",
+                                         .title = "Offline ownership, cut",
+                                         .size = 4,
+                                         .fields = std::span(kOwnershipFields).first(5),
+                                         .section = kLinkSection};
+inline constexpr Layout kOwnershipHead{.protocol = "dnet",
+                                       .key = "ownership",
+                                       .title = "Offline ownership, cut",
+                                       .size = 2,
+                                       .fields = std::span(kOwnershipFields).first(4),
+                                       .section = kLinkSection};
+static_assert(well_formed(kOwnershipVendor) && well_formed(kOwnershipHead));
 
 inline constexpr Field kOwnershipDataFields[] = {
     {.key = "data", .label = "Data", .first_bit = at(0), .width = 0, .kind = Kind::kBytes, .section = kLinkSection},

@@ -42,6 +42,9 @@ struct ExplicitChannel {
   std::uint16_t unconnected_id = 0;  // 0: none
   std::uint16_t response_id = 0;
   std::uint8_t body_format = 0;
+  // The bits of the header that a request and its response share. On a dynamic connection each holds the other end's
+  // MAC ID, so that only the XID is the same.
+  std::uint8_t header_mask = 0x7F;
   Transfer request{true};
   Transfer response{true};
   std::array<PendingRequest, 4> pending = {};
@@ -91,6 +94,12 @@ struct PollConnection {
   Durations answer;
 };
 
+// Another I/O connection's messages of one direction: decoded, not supervised.
+struct IoStream {
+  Transfer transfer{false};
+  std::optional<Learnt> size;  // bytes, as the device told
+};
+
 struct Node {
   NodeRef ref;  // channel kNone
   OwnerId owner{};
@@ -123,6 +132,9 @@ struct Node {
   std::uint32_t late_allowance = 0;     // responses still owed to requests reported as unanswered
 
   PollConnection poll;
+  IoStream change_of_state_data;               // of the node, on 340h + n
+  std::optional<Learnt> change_of_state_size;  // of the master's, on 405h + 8n
+  IoStream multicast_response;
   ExplicitChannel channel;
   Durations explicit_answer;
 
@@ -142,8 +154,16 @@ struct Node {
 
   // The master to show as the other end, kNoMacId where unknown.
   std::int16_t other_end() const { return master != kNoMacId ? master : master_seen; }
+  // How its drive was recognised, for findings that rest on it.
+  Basis drive_basis() const {
+    if (recognised == Recognised::kConfigured) return {BasisKind::kConfigured, 0};
+    if (recognised == Recognised::kIdentity) return {BasisKind::kCapture, recognised_frame};
+    return {};
+  }
   bool known_drive() const { return profile != nullptr && recognised >= Recognised::kIdentity; }
   bool change_of_state() const { return choice && (choice->value & 0x30) != 0; }
+  // The identifiers of the poll connection are those of a change-of-state or cyclic one.
+  bool change_of_state_only() const { return change_of_state() && (choice->value & 0x02) == 0; }
 };
 
 // A connection opened by unconnected messages.

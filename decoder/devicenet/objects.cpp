@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "decoder/devicenet/objects.hpp"
 
-#include "decoder/devicenet/can_id.hpp"
+#include "decoder/devicenet/layouts.hpp"
 #include "decoder/devicenet/object_layouts.hpp"
 
 namespace servotrace::devicenet {
@@ -20,9 +20,22 @@ constexpr ServiceName kDevicenetServices[] = {{0x0E, "Get_Attribute_Single"},
                                               {0x4B, "Allocate_Master/Slave_Connection_Set"},
                                               {0x4C, "Release_Master/Slave_Connection_Set"}};
 
+constexpr Field flag(std::string_view key, std::string_view label, std::uint16_t bit) {
+  return {.key = key, .label = label, .first_bit = bit, .width = 1, .kind = Kind::kBool, .section = kLinkSection};
+}
+constexpr Field reserved_bits(std::string_view key, std::uint16_t bit, std::uint16_t width) {
+  return {
+      .key = key, .label = "Reserved", .first_bit = bit, .width = width, .base = Base::kHex, .section = kLinkSection};
+}
+
+// The value of one attribute of several parts.
+template <std::size_t kCount>
+constexpr std::array<Layout, kCount> with(std::array<Layout, kCount> layouts, std::size_t index, const Layout& layout) {
+  layouts[index] = layout;
+  return layouts;
+}
+
 // Identity, class 01h.
-constexpr ValueName kIdentityStates[] = {{0, "non-existent"}, {1, "self-testing"},      {2, "standby"},
-                                         {3, "operational"},  {4, "recoverable fault"}, {5, "unrecoverable fault"}};
 constexpr Attribute kIdentityAttributes[] = {
     {.number = 1, .key = "vendor_id", .name = "Vendor ID", .type = DataType::kUint, .section = kLinkSection},
     {.number = 2, .key = "device_type", .name = "Device type", .type = DataType::kUint, .section = kLinkSection},
@@ -44,7 +57,7 @@ constexpr Attribute kIdentityAttributes[] = {
      .key = "state",
      .name = "State",
      .type = DataType::kUsint,
-     .values = kIdentityStates,
+     .values = kDeviceStateNames,
      .section = kLinkSection},
     {.number = 9,
      .key = "consistency",
@@ -59,8 +72,72 @@ constexpr Attribute kIdentityAttributes[] = {
      .unit = Unit::kSecond,
      .section = kLinkSection},
 };
+constexpr Field kRevisionFields[] = {
+    {.key = "major_revision", .label = "Major revision", .first_bit = at(0), .width = 8, .section = kLinkSection},
+    {.key = "minor_revision", .label = "Minor revision", .first_bit = at(1), .width = 8, .section = kLinkSection},
+};
+constexpr Layout kRevision{.protocol = "dnet",
+                           .key = "identity",
+                           .title = "Revision",
+                           .size = 2,
+                           .fields = kRevisionFields,
+                           .section = kLinkSection};
+constexpr Field kStatusFields[] = {
+    flag("owned", "Owned by a master", 0),
+    reserved_bits("status_reserved_1", 1, 1),
+    flag("configured", "Configured", 2),
+    reserved_bits("status_reserved_3", 3, 1),
+    {.key = "extended_status", .label = "Extended status", .first_bit = 4, .width = 4, .section = kLinkSection},
+    flag("minor_recoverable", "Minor recoverable fault", 8),
+    flag("minor_unrecoverable", "Minor unrecoverable fault", 9),
+    flag("major_recoverable", "Major recoverable fault", 10),
+    flag("major_unrecoverable", "Major unrecoverable fault", 11),
+    reserved_bits("status_reserved_12", 12, 4),
+};
+constexpr Layout kStatus{.protocol = "dnet",
+                         .key = "identity",
+                         .title = "Status",
+                         .size = 2,
+                         .fields = kStatusFields,
+                         .section = kLinkSection};
+static_assert(well_formed(kRevision) && well_formed(kStatus));
 constexpr auto kIdentityFields = attribute_fields(kIdentityAttributes);
-constexpr auto kIdentityLayouts = attribute_layouts("dnet", "identity", kIdentityAttributes, kIdentityFields);
+constexpr auto kIdentityLayouts =
+    with(with(attribute_layouts("dnet", "identity", kIdentityAttributes, kIdentityFields), 3, kRevision), 4, kStatus);
+static_assert(kIdentityAttributes[3].number == 4 && kIdentityAttributes[4].number == 5);
+
+// Class attributes: what instance 0 of any class holds.
+constexpr Attribute kClassAttributes[] = {
+    {.number = 1, .key = "revision", .name = "Class revision", .type = DataType::kUint, .section = kLinkSection},
+    {.number = 2, .key = "max_instance", .name = "Highest instance", .type = DataType::kUint, .section = kLinkSection},
+    {.number = 3,
+     .key = "instance_count",
+     .name = "Number of instances",
+     .type = DataType::kUint,
+     .section = kLinkSection},
+    {.number = 4,
+     .key = "optional_attributes",
+     .name = "Optional attributes",
+     .type = DataType::kBytes,
+     .section = kLinkSection},
+    {.number = 5,
+     .key = "optional_services",
+     .name = "Optional services",
+     .type = DataType::kBytes,
+     .section = kLinkSection},
+    {.number = 6,
+     .key = "max_class_attribute",
+     .name = "Highest class attribute",
+     .type = DataType::kUint,
+     .section = kLinkSection},
+    {.number = 7,
+     .key = "max_instance_attribute",
+     .name = "Highest instance attribute",
+     .type = DataType::kUint,
+     .section = kLinkSection},
+};
+constexpr auto kClassFields = attribute_fields(kClassAttributes);
+constexpr auto kClassLayouts = attribute_layouts("dnet", "class", kClassAttributes, kClassFields);
 
 // Message router, class 02h.
 constexpr Attribute kRouterAttributes[] = {
@@ -137,7 +214,33 @@ constexpr Attribute kDevicenetAttributes[] = {
      .section = kLinkSection},
 };
 constexpr auto kDevicenetFields = attribute_fields(kDevicenetAttributes);
-constexpr auto kDevicenetLayouts = attribute_layouts("dnet", "devicenet", kDevicenetAttributes, kDevicenetFields);
+constexpr ValueName kNoMaster[] = {{255, "none"}};
+constexpr Field kAllocationFields[] = {
+    flag("allocated_explicit", "Explicit", 0),
+    flag("allocated_poll", "Poll", 1),
+    flag("allocated_bit_strobe", "Bit-strobe", 2),
+    flag("allocated_multicast_poll", "Multicast poll", 3),
+    flag("allocated_change_of_state", "Change of state", 4),
+    flag("allocated_cyclic", "Cyclic", 5),
+    flag("allocated_ack_suppression", "Acknowledge suppression", 6),
+    reserved_bits("allocated_reserved", 7, 1),
+    {.key = "owner",
+     .label = "Master's MAC ID",
+     .first_bit = at(1),
+     .width = 8,
+     .values = kNoMaster,
+     .section = kLinkSection},
+};
+constexpr Layout kAllocation{.protocol = "dnet",
+                             .key = "devicenet",
+                             .title = "Allocation information",
+                             .size = 2,
+                             .fields = kAllocationFields,
+                             .section = kLinkSection};
+static_assert(well_formed(kAllocation));
+constexpr auto kDevicenetLayouts =
+    with(attribute_layouts("dnet", "devicenet", kDevicenetAttributes, kDevicenetFields), 4, kAllocation);
+static_assert(kDevicenetAttributes[4].number == 5);
 
 // Assembly, class 04h.
 constexpr Attribute kAssemblyAttributes[] = {
@@ -263,7 +366,42 @@ constexpr Attribute kConnectionAttributes[] = {
      .section = kLinkSection},
 };
 constexpr auto kConnectionFields = attribute_fields(kConnectionAttributes);
-constexpr auto kConnectionLayouts = attribute_layouts("dnet", "connection", kConnectionAttributes, kConnectionFields);
+constexpr ValueName kTriggers[] = {{0, "cyclic"}, {1, "change of state"}, {2, "application object"}};
+constexpr ValueName kTransportDirections[] = {{0, "client"}, {1, "server"}};
+constexpr Field kTransportFields[] = {
+    {.key = "transport_class", .label = "Transport class", .first_bit = at(0), .width = 4, .section = kLinkSection},
+    {.key = "production_trigger",
+     .label = "Production trigger",
+     .first_bit = at(0, 4),
+     .width = 3,
+     .values = kTriggers,
+     .section = kLinkSection},
+    {.key = "transport_direction",
+     .label = "Direction",
+     .first_bit = at(0, 7),
+     .width = 1,
+     .values = kTransportDirections,
+     .section = kLinkSection},
+};
+constexpr Layout kTransport{.protocol = "dnet",
+                            .key = "connection",
+                            .title = "Transport class and trigger",
+                            .size = 1,
+                            .fields = kTransportFields,
+                            .section = kLinkSection};
+static_assert(well_formed(kTransport));
+constexpr auto kConnectionLayouts =
+    with(attribute_layouts("dnet", "connection", kConnectionAttributes, kConnectionFields), 2, kTransport);
+static_assert(kConnectionAttributes[2].number == 3);
+
+constexpr ObjectClass kClass{.key = "class",
+                             .name = "Class",
+                             .first_instance = 0,
+                             .last_instance = 0,
+                             .services = kGet,
+                             .attributes = kClassAttributes,
+                             .section = kLinkSection,
+                             .layouts = kClassLayouts};
 
 constexpr ObjectClass kStandard[] = {
     {.id = 0x01,
@@ -334,6 +472,8 @@ constexpr ObjectClass kStandard[] = {
 };
 
 }  // namespace
+
+const ObjectClass& class_attributes() { return kClass; }
 
 std::span<const ObjectClass> standard_objects() { return kStandard; }
 

@@ -77,6 +77,7 @@ struct ServiceName {
   std::string_view name;
 };
 
+// A number may have a second row where the manual leaves open which of two data types it has.
 struct ObjectClass {
   std::uint16_t id = 0;
   std::string_view key;  // lower_snake
@@ -94,6 +95,13 @@ struct ObjectClass {
       if (row.number == number) return &row;
     }
     return nullptr;
+  }
+  // Of an attribute that has a row a data type: the one a value of `size` bytes is of, else the first.
+  constexpr const Attribute* find(std::uint32_t number, std::size_t size) const {
+    for (const Attribute& row : attributes) {
+      if (row.number == number && size_of(row.type) == size) return &row;
+    }
+    return find(number);
   }
   constexpr const Layout* layout_of(const Attribute& row) const {
     const auto index = static_cast<std::size_t>(&row - attributes.data());
@@ -114,6 +122,9 @@ constexpr const ObjectClass* find_class(std::span<const ObjectClass> classes, st
   }
   return nullptr;
 }
+
+// The class attributes (instance 0) every class may have.
+const ObjectClass& class_attributes();
 
 // The objects every DeviceNet device has (1 to 5) with their attributes, and the position controller classes 24h-27h
 // by name.

@@ -23,6 +23,10 @@ Bus::Size Bus::io_size(const Node& node, bool command) const {
   const auto sized = [](std::int64_t bytes) {
     return Size{true, bytes > static_cast<std::int64_t>(kFrameData), static_cast<std::uint32_t>(bytes)};
   };
+  if (node.change_of_state_only()) {  // its acknowledges are no fragments
+    if (!command) return sized(kFrameData);
+    return node.change_of_state_size ? sized(node.change_of_state_size->value) : Size{};
+  }
   const std::uint8_t profile = node.profile == nullptr ? std::uint8_t{0}
                                : command               ? node.profile->command_size
                                                        : node.profile->response_size;
@@ -95,7 +99,9 @@ void Bus::push_fragmented_poll(const Arrival& arrival, Node& node, bool command)
                               .owner = node.poll_owner,
                               .arguments = {command ? 0 : 1, static_cast<std::int64_t>(data.size()), size.bytes, 1},
                               .where = arrival.all(),
+                              .basis = node.drive_basis(),
                               .variant = 1});
+      derive(arrival.context.dissection, kScannerCodeField, 77, node.ref);
     }
   } else {
     report_fragment(arrival.context, node.poll_owner, result, command ? kCommandTransfer : kResponseTransfer, type,
@@ -264,6 +270,7 @@ void Bus::poll_answered(const Arrival& arrival, Node& node) {
                             .arguments = {0},
                             .where = arrival.all(),
                             .related = {poll.command_frame, 0}});
+    derive(arrival.context.dissection, kScannerCodeField, 86, node.ref);
   }
 }
 
@@ -293,7 +300,9 @@ void Bus::deliver(const Arrival& arrival, Node& node, bool command, const Messag
              .owner = node.poll_owner,
              .arguments = {command ? 0 : 1, static_cast<std::int64_t>(size), wanted, poll.size_seen ? 0 : 1},
              .where = message.in_frame,
+             .basis = node.drive_basis(),
              .variant = poll.size_seen ? 0 : 1});
+      derive(arrival.context.dissection, kScannerCodeField, 77, node.ref);
     }
   }
   if (size == 0) return;

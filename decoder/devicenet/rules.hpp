@@ -48,8 +48,9 @@ inline constexpr ValueName kUnconnectedKinds[] = {{0, "the node has no explicit 
                                                   {1, "another master owns the node, so it ignores this"}};
 inline constexpr ValueName kIdleKinds[] = {{0, "zero-length poll response to a poll command with data"},
                                            {1, "device shutdown message"}};
-inline constexpr ValueName kTransferNames[] = {
-    {0, "poll command"}, {1, "poll response"}, {2, "explicit request"}, {3, "explicit response"}};
+inline constexpr ValueName kTransferNames[] = {{0, "poll command"},         {1, "poll response"},
+                                               {2, "explicit request"},     {3, "explicit response"},
+                                               {4, "change-of-state data"}, {5, "multicast poll response"}};
 // The numbers of FragmentFault.
 inline constexpr ValueName kFaultNames[] = {{1, "the count is not the next"},
                                             {2, "the type does not fit"},

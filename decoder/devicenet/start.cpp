@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The start of a node: its Duplicate MAC ID check, and challengers of its MAC ID.
 #include "decoder/devicenet/bus.hpp"
+#include "decoder/devicenet/derived.hpp"
 
 namespace servotrace::devicenet {
 namespace {
@@ -35,6 +36,7 @@ void Bus::push_mac_check(const Arrival& arrival) {
                             .where = arrival.all(),
                             .related = {entry.check_frame, 0},
                             .variant = pair_variant(other_vendor, other_serial)});
+    derive(arrival.context.dissection, kScannerCodeField, 70, entry.ref);
   };
   const auto take_pair = [&](bool certain) {
     entry.has_pair = true;
@@ -106,7 +108,8 @@ void Bus::started(const Arrival& arrival, Node& node, bool certain) {
   node.explicit_connection = Known::kNo;
   for (PendingRequest& pending : node.channel.pending) pending.state = PendingRequest::State::kFree;
   node.late_allowance = 0;
-  for (Transfer* transfer : {&node.channel.request, &node.channel.response, &node.poll.command, &node.poll.response}) {
+  for (Transfer* transfer : {&node.channel.request, &node.channel.response, &node.poll.command, &node.poll.response,
+                             &node.change_of_state_data.transfer, &node.multicast_response.transfer}) {
     transfer->forget();
   }
   std::erase_if(dynamic_, [&](const DynamicConnection& connection) { return connection.server == node.ref.mac_id; });

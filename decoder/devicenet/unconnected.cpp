@@ -12,6 +12,7 @@ constexpr std::uint8_t kOpenService = 0x4B;
 constexpr std::uint8_t kCloseService = 0x4C;
 constexpr std::uint8_t kHeartbeatService = 0x4D;
 constexpr std::uint8_t kShutdownService = 0x4E;
+constexpr std::uint8_t kXidMask = 0x40;
 constexpr std::size_t kMaxDynamic = 64;  // connections kept; a hostile capture may open any number
 
 // The CAN identifier of a message ID in the group an Open asked for; 0 where there is none. Group 2 identifiers hold
@@ -53,6 +54,8 @@ void Bus::push_unconnected(const Arrival& arrival, bool request) {
     layout = &kCloseRequest;
   } else if (service == kShutdownService && data.size() == kShutdown.size) {
     layout = &kShutdown;
+  } else if (service == kHeartbeatService && data.size() == kHeartbeat.size) {
+    layout = &kHeartbeat;
   }
   if (!fits(*layout, data)) layout = &kUnconnected;
   Dissection* const dissection = arrival.context.dissection;
@@ -71,6 +74,7 @@ void Bus::push_unconnected(const Arrival& arrival, bool request) {
                             .arguments = {1},
                             .where = arrival.all(),
                             .variant = 1});
+    derive(dissection, kScannerCodeField, 86, sender.ref);
     return;
   }
   if (request && !answers) {
@@ -158,6 +162,11 @@ void Bus::opened(const Arrival& arrival, const PendingOpen& open) {
   connection.channel.request_id = dynamic_id(open.group_select, request_message, open.client, open.server);
   connection.channel.response_id = dynamic_id(open.group_select, source_id, open.server, open.server);
   connection.channel.body_format = static_cast<std::uint8_t>(read(slot(kOpenResponse, "body_format"), data));
+  if (open.group_select != 1) {  // both identifiers hold their sender's MAC ID, both headers the other end's
+    connection.channel.header_mask = kXidMask;
+    connection.channel.request = Transfer(true, kXidMask);
+    connection.channel.response = Transfer(true, kXidMask);
+  }
   std::erase_if(dynamic_, [&](const DynamicConnection& old) {
     return (old.server == connection.server && old.instance == connection.instance) ||
            old.channel.request_id == connection.channel.request_id;
@@ -171,6 +180,8 @@ void Bus::push_dynamic(const Arrival& arrival) {
   for (DynamicConnection& connection : dynamic_) {
     const bool request = connection.channel.request_id == arrival.id.value;
     if (!request && connection.channel.response_id != arrival.id.value) continue;
+    const Node& server = node(static_cast<std::int16_t>(connection.server));
+    derive(arrival.context.dissection, kDestinationField, request ? connection.server : connection.client, server.ref);
     push_explicit(arrival, node(static_cast<std::int16_t>(connection.server)), connection.channel, request);
     return;
   }

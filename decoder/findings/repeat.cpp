@@ -11,7 +11,7 @@ OwnerId Findings::owner(const NodeRef& node) {
   for (std::size_t i = 0; i < owners_.size(); ++i) {
     if (owners_[i].node == node) return static_cast<OwnerId>(i);
   }
-  owners_.push_back(Owner{.node = node, .open = {}, .states = {}});
+  owners_.push_back(Owner{.node = node, .drive_basis = {}, .open = {}, .states = {}});
   return static_cast<OwnerId>(owners_.size() - 1);
 }
 
@@ -84,6 +84,7 @@ bool Findings::raise(const RawFrame& frame, const Report& report) {
   if (report.as_warning) severity = Severity::kWarning;
   if (report.as_error) severity = Severity::kError;
   if (assumed) severity = lowered(severity);
+  const bool of_drive = report.basis.kind == BasisKind::kNone && !row.id.starts_with("DN");
   rule_state.finding = static_cast<std::uint32_t>(findings_.size());
   findings_.push_back(Finding{.rule = report.rule,
                               .severity = severity,
@@ -98,7 +99,7 @@ bool Findings::raise(const RawFrame& frame, const Report& report) {
                               .related = report.related,
                               .arguments = report.arguments,
                               .cause = report.cause,
-                              .basis = report.basis});
+                              .basis = of_drive ? owner.drive_basis : report.basis});
   return true;
 }
 

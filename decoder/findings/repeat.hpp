@@ -42,6 +42,11 @@ class Findings {
   OwnerId owner(const NodeRef& node);
   // A node learns its name late (RTEX: Actual MAC-ID): later findings carry it. Earlier ones stay as they were said.
   void set_node(OwnerId owner, const NodeRef& node);
+  // How the drive of this node was recognised: what a finding of a drive's rules (not of block DN) rests on where its
+  // report names no basis.
+  void set_drive_basis(OwnerId owner, const Basis& basis) {
+    owners_[static_cast<std::size_t>(owner)].drive_basis = basis;
+  }
   const NodeRef& node(OwnerId owner) const { return owners_[static_cast<std::size_t>(owner)].node; }
 
   // Adds a finding at `frame`, or extends the open episode of the same rule, owner and variant. Returns true where a
@@ -84,6 +89,7 @@ class Findings {
   };
   struct Owner {
     NodeRef node;
+    Basis drive_basis;
     std::array<std::uint64_t, (kRuleCount + 63) / 64> open = {};
     std::vector<RuleState> states;
   };

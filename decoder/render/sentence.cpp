@@ -155,6 +155,32 @@ std::string_view derived_words(const Dissection& dissection, std::string_view ke
   return entry == nullptr ? std::string_view() : entry->text;
 }
 
+// Of the body of an explicit message, what service, object and attribute do not say: the choices of an allocation, why
+// a request was refused.
+std::string explicit_words(const Segment& segment, Bytes bytes) {
+  std::string words;
+  for_each_field(*segment.layout, bytes, [&](const Field& field, std::int64_t raw, Bytes) {
+    const ValueName* const name = find_value(field.values, raw);
+    if (field.key == "general_status") {
+      join(words, ", ", fmt::format("refused: {}", name == nullptr ? value_text(field, raw) : std::string(name->name)));
+    } else if (field.key.starts_with("choice_") && raw != 0) {
+      join(words, ", ", field.label);
+    } else if (field.key == "reset_type") {
+      join(words, ", ", name == nullptr ? value_text(field, raw) : std::string(name->name));
+    }
+  });
+  return words;
+}
+
+// The value of an attribute that is one number.
+std::string attribute_words(const Segment& segment, Bytes bytes) {
+  const std::span<const Field> fields = segment.layout->fields;
+  if (segment.layout->protocol != "dnet" || fields.size() != 1 || slot_of(fields[0]).width == 0) return {};
+  static constexpr std::string_view kObjects[] = {"identity", "router", "devicenet", "assembly", "connection", "class"};
+  if (std::find(std::begin(kObjects), std::end(kObjects), segment.layout->key) == std::end(kObjects)) return {};
+  return value_text(fields[0], read(slot_of(fields[0]), bytes));
+}
+
 // DeviceNet: a frame is one message, or a fragment of one. What its identifier and the sessions say comes first.
 std::string message_words(const Dissection& dissection, const Settings* settings) {
   NodeRef node;
@@ -178,11 +204,22 @@ std::string message_words(const Dissection& dissection, const Settings* settings
   const bool has_service = !derived_words(dissection, "service_name").empty();
   for (const Segment& segment : dissection.segments) {
     // The header of an explicit message is what service_name and its like have said.
-    if (has_service && segment.layout->protocol == "dnet" && segment.layout->key == "explicit") continue;
-    std::string part = segment_words(segment, dissection.bytes(segment));
+    const Bytes bytes = dissection.bytes(segment);
+    if (has_service && segment.layout->protocol == "dnet" && segment.layout->key == "explicit") {
+      join(words, ", ", explicit_words(segment, bytes));
+      continue;
+    }
+    std::string part = attribute_words(segment, bytes);
+    if (!part.empty()) {
+      join(words, " = ", part);
+      continue;
+    }
+    part = segment_words(segment, bytes);
     if (!part.empty() && segment.guessed) part += " (guessed)";
     join(words, ", ", part);
   }
+  const std::string_view why = derived_words(dissection, "allocation_error");
+  if (!why.empty()) words += fmt::format(" ({})", why);
   join(text, ": ", words);
   return text;
 }

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "tests/golden/cli/program.hpp"
+#include "tests/support/program.hpp"
 
 namespace servotrace::test {
 namespace {
@@ -91,7 +91,8 @@ TEST_F(Check, BrokenSettingsAreOneLineWithTheirPlace) {
   const Outcome outcome = program.run({"check", "run.pcapng"});
   EXPECT_EQ(outcome.status, 2);
   EXPECT_THAT(outcome.out, IsEmpty());
-  EXPECT_THAT(outcome.err, EndsWith("servotrace.toml:2:1: unknown key 'echoms' in [limits] (did you mean 'echo_ms'?)\n"));
+  EXPECT_THAT(outcome.err,
+              EndsWith("servotrace.toml:2:1: unknown key 'echoms' in [limits] (did you mean 'echo_ms'?)\n"));
   EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1);
   EXPECT_EQ(program.run({"check", "run.pcapng", "--config", "none.toml"}).err,
             "servotrace: none.toml: cannot be opened\n");
@@ -146,6 +147,24 @@ TEST_F(Check, BadInputIsOneLineAndTwo) {
     EXPECT_EQ(outcome.status, 2) << shown;
     EXPECT_THAT(outcome.err, StartsWith("servotrace: ")) << shown;
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << shown << outcome.err;
+  }
+}
+
+// An option takes one word, so that the captures may follow it.
+TEST_F(Check, OptionsMayStandBeforeTheCaptures) {
+  program.simulate("rtex_clean", "clean");
+  for (const std::vector<std::string>& options :
+       std::vector<std::vector<std::string>>{{"--output", "jsonl"},
+                                             {"--output", "text", "--output", "jsonl=out.jsonl"},
+                                             {"--select", "RX"},
+                                             {"--ignore", "RX,DN"},
+                                             {"--actor", "master"}}) {
+    std::vector<std::string> arguments = {"check"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    arguments.emplace_back("clean.pcapng");
+    const Outcome outcome = program.run(arguments);
+    EXPECT_EQ(outcome.status, 0) << ::testing::PrintToString(options) << outcome.err;
+    EXPECT_EQ(outcome.err, "") << ::testing::PrintToString(options);
   }
 }
 

@@ -6,7 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "tests/golden/cli/program.hpp"
+#include "tests/support/bytes.hpp"
+#include "tests/support/program.hpp"
 
 namespace servotrace::test {
 namespace {
@@ -56,6 +57,44 @@ TEST_F(Convert, LogBecomesPcapng) {
   EXPECT_EQ(info.status, 0) << info.err;
   EXPECT_THAT(info.out, ::testing::HasSubstr("can0, link type 227"));
   EXPECT_THAT(info.out, ::testing::HasSubstr("frames: 2 (2 of a known bus)"));
+}
+
+// A big-endian pcap of a Linux cooked capture (113, 276) holds CAN identifiers big-endian; the pcapng that is written
+// is little-endian. The Duplicate MAC ID requests of node 5 (42Fh) stay what they are.
+TEST_F(Convert, CookedCanOfABigEndianMachine) {
+  const auto file = [](std::string_view link_type, std::string_view cooked) {
+    std::string text;
+    const auto add = [&](std::string_view typed) {
+      for (const std::uint8_t byte : hex(typed)) text += static_cast<char>(byte);
+    };
+    add("A1B2C3D4 0002 0004 00000000 00000000 0000FFFF");
+    add(link_type);
+    const std::string_view can = "0000042F 07000000 00 2C00 78563412";
+    const auto length = static_cast<std::uint8_t>(hex(cooked).size() + hex(can).size());
+    for (const std::string_view second : {"6553F100", "6553F101"}) {
+      add(second);
+      add("00000000 000000");
+      text += static_cast<char>(length);
+      add("000000");
+      text += static_cast<char>(length);
+      add(cooked);
+      add(can);
+    }
+    return text;
+  };
+  program.write("113.pcap", file("00000071", "0000 0118 0000 0000000000000000 000C"));
+  program.write("276.pcap", file("00000114", "000C 0000 00000003 0118 00 00 0000000000000000"));
+  for (const std::string name : {"113.pcap", "276.pcap"}) {
+    const std::vector<json> before = frames(name);
+    ASSERT_EQ(before.size(), 1U) << "the second request is the evidence";
+    EXPECT_THAT(program.run({"decode", name}).out, ::testing::HasSubstr("CAN identifier: 42Fh")) << name;
+    for (const std::string command : {"convert", "annotate"}) {
+      const Outcome outcome = program.run({command, name, "-o", "out.pcapng"});
+      ASSERT_EQ(outcome.status, 0) << outcome.err;
+      EXPECT_EQ(frames("out.pcapng"), before) << command << " " << name;
+      EXPECT_THAT(program.run({"decode", "out.pcapng"}).out, ::testing::HasSubstr("CAN identifier: 42Fh")) << name;
+    }
+  }
 }
 
 TEST_F(Convert, JoinedFilesAreOneRecording) {

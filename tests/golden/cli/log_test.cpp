@@ -10,7 +10,7 @@
 #include <functional>
 
 #include "replay/capture/source.hpp"
-#include "tests/golden/cli/program.hpp"
+#include "tests/support/program.hpp"
 
 namespace servotrace::test {
 namespace {

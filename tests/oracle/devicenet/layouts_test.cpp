@@ -109,6 +109,72 @@ TEST(UnconnectedMessages, OpenAndClose) {
   EXPECT_EQ(read(slot(kCloseRequest, "connection_instance"), hex("3F 4C 34 12")), 0x1234);
 }
 
+TEST(UnconnectedMessages, HeartbeatAndShutdown) {
+  // Heartbeat: identity instance 1, operational, flags, consistency value. Shutdown: class, instance, code.
+  const auto heartbeat = hex("3F 4D 01 00 03 80 34 12");
+  EXPECT_EQ(read(slot(kHeartbeat, "service"), heartbeat), 0x4D);
+  EXPECT_EQ(read(slot(kHeartbeat, "heartbeat_instance"), heartbeat), 1);
+  EXPECT_EQ(read(slot(kHeartbeat, "device_state"), heartbeat), 3);
+  EXPECT_EQ(read(slot(kHeartbeat, "heartbeat_flags"), heartbeat), 0x80);
+  EXPECT_EQ(read(slot(kHeartbeat, "consistency"), heartbeat), 0x1234);
+  const auto shutdown = hex("3F 4E 03 00 01 00 02 01");
+  EXPECT_EQ(read(slot(kShutdown, "service"), shutdown), 0x4E);
+  EXPECT_EQ(read(slot(kShutdown, "shutdown_class"), shutdown), 3);
+  EXPECT_EQ(read(slot(kShutdown, "shutdown_instance"), shutdown), 1);
+  EXPECT_EQ(read(slot(kShutdown, "shutdown_code"), shutdown), 0x0102);
+}
+
+TEST(ExplicitMessages, PathSegments) {
+  EXPECT_EQ(read(slot(kPathClass8, "class"), hex("20 05")), 5);
+  EXPECT_EQ(read(slot(kPathClass16, "class"), hex("21 00 05 01")), 0x0105);
+  EXPECT_EQ(read(slot(kPathInstance8, "instance"), hex("24 02")), 2);
+  EXPECT_EQ(read(slot(kPathInstance16, "instance"), hex("25 00 34 12")), 0x1234);
+  EXPECT_EQ(read(slot(kPathAttribute, "attribute"), hex("30 09")), 9);
+}
+
+TEST(Objects, EveryGeneralStatusAndPositionClassHasItsWords) {
+  const std::pair<std::uint8_t, std::string_view> codes[] = {
+      {0x00, "success"},
+      {0x02, "resource unavailable"},
+      {0x03, "invalid parameter value"},
+      {0x04, "path segment error"},
+      {0x05, "path destination unknown"},
+      {0x08, "service not supported"},
+      {0x09, "invalid attribute value"},
+      {0x0B, "already in requested mode or state"},
+      {0x0C, "object state conflict"},
+      {0x0D, "object already exists"},
+      {0x0E, "attribute not settable"},
+      {0x0F, "privilege violation"},
+      {0x10, "device state conflict"},
+      {0x11, "reply data too large"},
+      {0x13, "not enough data"},
+      {0x14, "attribute not supported"},
+      {0x15, "too much data"},
+      {0x16, "object does not exist"},
+      {0x18, "no stored attribute data"},
+      {0x19, "store operation failure"},
+      {0x1F, "vendor specific"},
+      {0x20, "invalid parameter"},
+      {0x28, "invalid member ID"},
+      {0x29, "member not settable"},
+      {0x2A, "Group 2 only server general failure"},
+  };
+  for (const auto& [code, words] : codes) {
+    const ValueName* const row = find_value(kGeneralStatusNames, code);
+    ASSERT_NE(row, nullptr) << int{code};
+    EXPECT_EQ(row->name, words);
+  }
+  const std::pair<std::uint16_t, std::string_view> classes[] = {{0x24, "Position Controller Supervisor"},
+                                                                {0x25, "Position Controller"},
+                                                                {0x26, "Block Sequencer"},
+                                                                {0x27, "Command Block"}};
+  for (const auto& [id, words] : classes) {
+    EXPECT_EQ(find_class(standard_objects(), id)->name, words);
+    EXPECT_EQ(find_value(kClassNames, id)->name, words);
+  }
+}
+
 TEST(Vendors, BothNumbersOfTheNs310) {
   EXPECT_NE(find_value(kVendorNames, 44), nullptr);
   EXPECT_NE(find_value(kVendorNames, 0x44), nullptr);

@@ -7,6 +7,7 @@
 
 #include "replay/capture/pcapng_writer.hpp"
 #include "tests/support/bytes.hpp"
+#include "tests/support/peer.hpp"
 #include "tests/support/plugin_findings.hpp"
 #include "tests/support/recording.hpp"
 
@@ -122,6 +123,18 @@ TEST_F(Parity, Scenarios) {
   const fs::path file = tshark_.folder() / "scenarios.pcapng";
   write_capture(file, all);
   expect_parity(tshark_, file, {}, {"rtex.user_link_type:147"});
+}
+
+// Of an independent slave: with the evidence the traffic gives, and where CAN is said to be DeviceNet.
+TEST_F(Parity, PeerCaptures) {
+  if (peer_captures().empty()) GTEST_SKIP() << kNoPeerCaptures;
+  replay::FileSettings assumed;
+  assumed.decoder.devicenet.assumed = true;
+  for (const auto& entry : fs::directory_iterator(peer_captures() / "devicenet-peer")) {
+    if (entry.path().extension() != ".pcap") continue;
+    expect_parity(tshark_, entry.path());
+    expect_parity(tshark_, entry.path(), assumed, {"dnet.can_is_devicenet:TRUE"});
+  }
 }
 
 }  // namespace

@@ -4,10 +4,10 @@
 #include <pcap/pcap.h>
 
 #include <cstdio>
-#include <cstdlib>
 
 #include "tests/support/bytes.hpp"
 #include "tests/support/paths.hpp"
+#include "tests/support/peer.hpp"
 #include "tests/unit/capture/support.hpp"
 
 namespace servotrace::test {
@@ -82,14 +82,9 @@ std::string as_tshark(const ReadFrame& read) {
   return text;
 }
 
-fs::path peer_captures() {
-  const char* const named = std::getenv("SERVOTRACE_PEER_CAPTURES");
-  return named != nullptr ? fs::path(named) : source_dir() / ".." / "shared" / "captures";
-}
-
 std::vector<fs::path> captures() {
   std::vector<fs::path> files;
-  for (const fs::path& folder : {source_dir() / "captures", peer_captures() / "devicenet-peer"}) {
+  for (const fs::path& folder : {source_dir() / "captures", peer_captures()}) {
     if (!fs::exists(folder)) continue;
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
       if (entry.path().extension() == ".pcap" || entry.path().extension() == ".pcapng") files.push_back(entry.path());

@@ -185,6 +185,38 @@ TEST(Dn205, SilentForFragmentsOfUnknownSize) {
   EXPECT_THAT(bench.findings(), IsEmpty());
 }
 
+// The NS310 reports Trajectory_In_Progress in bit 0 of its first byte (SIE-C718-7 5.3.2).
+constexpr const char* kAtRest = "80 00 01 21 00 00 00 00";
+constexpr const char* kMoving = "81 00 01 21 00 00 00 00";
+
+Bench ns310() { return Bench{Bench::with_profile(5, "yaskawa-ns310")}; }
+
+TEST(Dn206, ReleaseOrResetOfADriveInMotion) {
+  const char* takes[] = {"01 4C 03 01 03", "01 4C 03 01 02", "01 05 01 01 00", "01 05 05 02"};
+  for (const char* take : takes) {
+    Bench bench = ns310();
+    bench.start(5).allocate(5).poll(5, "80 00 20 20 00 00 00 00", kMoving).frame(0x42C, take, 999);
+    EXPECT_THAT(bench.findings(), ElementsAre("DN206@8")) << take;
+    EXPECT_EQ(bench.all()[0].arguments[0], take[4] == 'C' ? 0 : 1);
+    EXPECT_EQ(bench.all()[0].arguments[1], 999 * kMillisecondNs);
+    EXPECT_EQ(bench.all()[0].related[0], 7U);
+  }
+}
+
+TEST(Dn206, SilentAtRestLaterOrWithoutAnIoChoice) {
+  Bench rest = ns310();
+  rest.start(5).allocate(5).poll(5, "80 00 20 20 00 00 00 00", kAtRest).frame(0x42C, "01 4C 03 01 03");
+  EXPECT_THAT(rest.findings(), IsEmpty());
+  Bench later = ns310();
+  later.start(5).allocate(5).poll(5, "80 00 20 20 00 00 00 00", kMoving).frame(0x42C, "01 4C 03 01 03", 1001);
+  EXPECT_THAT(later.findings(), IsEmpty());
+  for (const char* other : {"01 4C 03 01 01", "01 05 05 01"}) {  // the explicit connection only
+    Bench bench = ns310();
+    bench.start(5).allocate(5).poll(5, "80 00 20 20 00 00 00 00", kMoving).frame(0x42C, other);
+    EXPECT_THAT(bench.findings(), IsEmpty()) << other;
+  }
+}
+
 TEST(Dn207, NoResponseInTime) {
   Bench bench;
   established(bench, "00 00").frame(0x42C, "01 0E 01 01 01").frame(0x7C0, "", 999);

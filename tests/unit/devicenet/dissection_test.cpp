@@ -72,11 +72,213 @@ TEST(BodyFormats, AsTheAllocationAnswered) {
   EXPECT_THAT(bench.findings(), IsEmpty());
 }
 
+TEST(BodyFormats, EveryNumberedFormat) {
+  const std::pair<const char*, const char*> formats[] = {{"01 CB 00", "01 0E 05 02 09"},
+                                                         {"01 CB 01", "01 0E 05 02 00 09"},
+                                                         {"01 CB 02", "01 0E 05 00 02 00 09"},
+                                                         {"01 CB 03", "01 0E 05 00 02 09"}};
+  for (const auto& [allocated, request] : formats) {
+    Bench bench;
+    bench.start(5).frame(0x42E, "01 4B 03 01 01 01").frame(0x42B, allocated).frame(0x42C, request);
+    EXPECT_EQ(field_value(bench.dissection(), "explicit", "class"), 5) << request;
+    EXPECT_EQ(field_value(bench.dissection(), "explicit", "instance"), 2) << request;
+    EXPECT_EQ(field_value(bench.dissection(), "explicit", "attribute"), 9) << request;
+    bench.frame(0x42B, "01 8E C8 00");
+    EXPECT_EQ(field_value(bench.dissection(), "connection", "expected_packet_rate"), 200) << request;
+  }
+}
+
 TEST(BodyFormats, CipPath) {
   Bench bench;
   bench.start(5).frame(0x42E, "01 4B 03 01 01 01").frame(0x42B, "01 CB 04");
-  bench.frame(0x42C, "01 0E 02 20 05 24 02");  // no attribute in the path: one behind it
+  bench.frame(0x42C, "01 01 02 20 05 24 02");
   EXPECT_EQ(derived_text(bench.dissection(), "object_name"), "Connection");
+  EXPECT_EQ(field_value(bench.dissection(), "explicit", "class"), 5);
+  EXPECT_EQ(field_value(bench.dissection(), "explicit", "instance"), 2);
+  bench.frame(0x42B, "01 94 08 FF");
+  // 9 bytes with an attribute segment: fragmented.
+  bench.frame(0x42C, "81 00 0E 03 20 05 24 02").frame(0x42B, "81 C0 00").frame(0x42C, "81 81 30 09");
+  EXPECT_EQ(derived_text(bench.dissection(), "attribute_name"), "Expected packet rate");
+  EXPECT_EQ(field_value(bench.dissection(), "explicit", "attribute"), 9);
+  bench.frame(0x42B, "81 C1 00").frame(0x42B, "01 8E C8 00");
+  EXPECT_EQ(field_value(bench.dissection(), "connection", "expected_packet_rate"), 200);
+}
+
+// Nothing of a message stays without a name.
+TEST(Values, OfClassesResetsAndWhatIsTooMuch) {
+  Bench bench;
+  bench.start(5).allocate(5).frame(0x42C, "01 0E 03 00 01");
+  EXPECT_EQ(derived_text(bench.dissection(), "attribute_name"), "Class revision");
+  bench.frame(0x42B, "01 8E 02 00");
+  EXPECT_EQ(field_value(bench.dissection(), "class", "revision"), 2);
+  bench.frame(0x42C, "01 0E 01 01 01 00");  // a byte behind the attribute of a Get
+  EXPECT_EQ(field_value(bench.dissection(), "explicit", "surplus"), 0);
+  bench.frame(0x42B, "01 8E 34 12 FF");  // and behind the value
+  EXPECT_EQ(field_value(bench.dissection(), "identity", "vendor_id"), 0x1234);
+  EXPECT_EQ(field_value(bench.dissection(), "explicit", "surplus"), 0);
+  bench.frame(0x42C, "01 05 01 01 01");
+  EXPECT_EQ(field_value(bench.dissection(), "explicit", "reset_type"), 1);
+}
+
+TEST(Values, OfSeveralParts) {
+  Bench bench;
+  bench.start(5).allocate(5).frame(0x42C, "01 0E 03 01 05").frame(0x42B, "01 8E 03 01");
+  EXPECT_EQ(field_value(bench.dissection(), "devicenet", "allocated_explicit"), 1);
+  EXPECT_EQ(field_value(bench.dissection(), "devicenet", "allocated_poll"), 1);
+  EXPECT_EQ(field_value(bench.dissection(), "devicenet", "allocated_bit_strobe"), 0);
+  EXPECT_EQ(field_value(bench.dissection(), "devicenet", "owner"), 1);
+  bench.frame(0x42C, "01 0E 05 01 03").frame(0x42B, "01 8E 83");
+  EXPECT_EQ(field_value(bench.dissection(), "connection", "transport_class"), 3);
+  EXPECT_EQ(field_value(bench.dissection(), "connection", "transport_direction"), 1);
+  bench.frame(0x42C, "01 0E 01 01 05").frame(0x42B, "01 8E 05 01");
+  EXPECT_EQ(field_value(bench.dissection(), "identity", "owned"), 1);
+  EXPECT_EQ(field_value(bench.dissection(), "identity", "configured"), 1);
+  EXPECT_EQ(field_value(bench.dissection(), "identity", "minor_recoverable"), 1);
+}
+
+TEST(Errors, OfAnAllocationInWordsWithTheScannersCode) {
+  const std::pair<const char*, const char*> answers[] = {
+      {"01 94 0C 01", "owned by another master"},
+      {"01 94 09 02", "bad choice"},
+      {"01 94 02 02", "choice not supported"},
+      {"01 94 0B 02", "already allocated, or not allocated on release"}};
+  for (const auto& [answer, words] : answers) {
+    Bench bench;
+    bench.start(5).frame(0x42E, "01 4B 03 01 03 01").frame(0x42B, answer);
+    EXPECT_EQ(derived_text(bench.dissection(), "allocation_error"), words);
+    EXPECT_EQ(derived_value(bench.dissection(), "scanner_code"), 83);
+  }
+}
+
+TEST(Errors, EachScannerCode) {
+  Bench bench{Bench::with_profile(5, "yaskawa-ns310")};
+  bench.start(5).allocate(5).poll(5, "00 00 20 20 00 00 00 00", "00 00 00 20 00 00 00 00");
+  bench.frame(0x42D, "00 00 20 20 00 00 00", 10);
+  EXPECT_EQ(derived_value(bench.dissection(), "scanner_code"), 77);
+  bench.frame(0x42D, "00 00 20 20 00 00 00 00", 10);
+  EXPECT_EQ(derived_value(bench.dissection(), "scanner_code"), 72);
+  bench.frame(0x3C5, "");
+  EXPECT_EQ(derived_value(bench.dissection(), "scanner_code"), 86);
+  bench.frame(0x42F, "00 34 12 09 09 09 09");
+  EXPECT_EQ(derived_value(bench.dissection(), "scanner_code"), 70);
+}
+
+TEST(Reassembly, ARetransmissionIsMarked) {
+  Bench bench;
+  bench.start(5).allocate(5).frame(0x42C, "01 0E 01 01 07").frame(0x42B, "81 00 8E 0A 4A 55 53 50");
+  EXPECT_EQ(derived_value(bench.dissection(), "retransmission"), -1);
+  bench.frame(0x42B, "81 00 8E 0A 4A 55 53 50", 900);
+  EXPECT_EQ(derived_value(bench.dissection(), "retransmission"), 1);
+  bench.frame(0x42C, "81 C0 00").frame(0x42B, "81 81 2D 4E 53 33 31 30");
+  EXPECT_EQ(derived_value(bench.dissection(), "retransmission"), -1);
+}
+
+// How the drive was recognised stands in the finding: the settings, or the frame of the Identity read.
+TEST(Recognition, AFindingSaysHow) {
+  Bench configured{Bench::with_profile(5, "yaskawa-ns310")};
+  configured.start(5).allocate(5).frame(0x42C, "01 10 25 01 08 64");
+  EXPECT_EQ(configured.last().basis.kind, BasisKind::kConfigured);
+  Bench read;
+  read.start(5).allocate(5).frame(0x42C, "01 0E 01 01 01").frame(0x42B, "01 8E 2C 00");
+  read.frame(0x42C, "01 0E 01 01 03").frame(0x42B, "01 8E 51").frame(0x42C, "01 10 25 01 08 64");
+  EXPECT_THAT(read.findings(), testing::ElementsAre("DN404@10"));
+  EXPECT_EQ(read.last().basis.kind, BasisKind::kCapture);
+  EXPECT_EQ(read.last().basis.frame, 9U);
+  // A rule of the drive itself: Start_Trajectory while the servo is off (YS104).
+  read.poll(5, "00 00 20 20 00 00 00 00", "00 00 00 20 00 00 00 00");
+  read.frame(0x42D, "81 00 21 20 F4 01 00 00", 10);
+  EXPECT_EQ(rule_row(read.last().rule).id.substr(0, 2), "YS");
+  EXPECT_EQ(read.last().basis.frame, 9U);
+}
+
+// Vendor, device type, product code, revision, status, serial number, product name: 18 bytes in three fragments.
+TEST(Values, OfTheWholeIdentity) {
+  Bench bench;
+  bench.start(5).allocate(5).frame(0x42C, "01 01 01 01");
+  bench.frame(0x42B, "81 00 81 2C 00 10 00 51").frame(0x42C, "81 C0 00");
+  bench.frame(0x42B, "81 41 00 01 02 00 00 78").frame(0x42C, "81 C1 00");
+  bench.frame(0x42B, "81 82 56 34 12 02 4E 53");
+  EXPECT_EQ(field_value(bench.dissection(), "identity", "vendor_id"), 44);
+  EXPECT_EQ(field_value(bench.dissection(), "identity", "device_type"), 16);
+  EXPECT_EQ(field_value(bench.dissection(), "identity", "product_code"), 0x51);
+  EXPECT_EQ(field_value(bench.dissection(), "identity", "major_revision"), 1);
+  EXPECT_EQ(field_value(bench.dissection(), "identity", "minor_revision"), 2);
+  EXPECT_EQ(field_value(bench.dissection(), "identity", "owned"), 0);
+  EXPECT_EQ(field_value(bench.dissection(), "identity", "serial_number"), 0x12345678);
+  EXPECT_EQ(field_value(bench.dissection(), "identity", "length"), 2);
+  bench.frame(0x42C, "81 C2 00");
+  EXPECT_THAT(bench.findings(), IsEmpty());
+}
+
+// Change of state: 340h + n, acknowledged on 402h + 8n; the master's on 405h + 8n, acknowledged on 3C0h + n.
+TEST(OtherIo, ChangeOfState) {
+  Bench bench;
+  bench.start(5).allocate(5, 0x11);
+  bench.frame(0x345, "01 02");
+  EXPECT_EQ(derived_text(bench.dissection(), "message"), "Change-of-state or cyclic");
+  EXPECT_EQ(derived_value(bench.dissection(), "source"), 5);
+  EXPECT_EQ(derived_value(bench.dissection(), "destination"), 1);
+  EXPECT_EQ(field_value(bench.dissection(), "io", "data"), 0);
+  EXPECT_EQ(derived_value(bench.dissection(), "fragment_or_data"), -1);
+  bench.frame(0x42A, "");
+  EXPECT_EQ(derived_value(bench.dissection(), "source"), 1);
+  EXPECT_EQ(derived_value(bench.dissection(), "destination"), 5);
+  EXPECT_EQ(derived_value(bench.dissection(), "idle"), -1);  // an acknowledge is empty
+  bench.frame(0x345, "");
+  EXPECT_EQ(derived_value(bench.dissection(), "idle"), 1);
+  bench.frame(0x42D, "05");
+  EXPECT_EQ(derived_text(bench.dissection(), "message"), "Change-of-state or cyclic command");
+  bench.frame(0x3C5, "");
+  EXPECT_EQ(derived_text(bench.dissection(), "message"), "Change-of-state or cyclic acknowledge");
+  EXPECT_THAT(bench.findings(), IsEmpty());
+}
+
+TEST(OtherIo, FragmentsAsTheConnectionSizeSays) {
+  Bench bench;
+  bench.start(5).allocate(5, 0x11);
+  bench.frame(0x345, "00 01 02 03 04 05 06 07");
+  EXPECT_EQ(derived_value(bench.dissection(), "fragment_or_data"), 1);
+  bench.frame(0x345, "81 08").frame(0x42C, "01 0E 05 04 07").frame(0x42B, "01 8E 0A 00");
+  bench.frame(0x345, "00 01 02 03 04 05 06 07").frame(0x345, "81 08 09 0A");
+  EXPECT_EQ(bench.dissection().reassembled.size(), 10U);
+  EXPECT_EQ(field_value(bench.dissection(), "fragment", "count"), 1);
+  EXPECT_EQ(derived_value(bench.dissection(), "fragment_or_data"), -1);
+  EXPECT_THAT(bench.findings(), IsEmpty());
+  bench.frame(0x345, "00 01 02 03 04 05 06 07").frame(0x345, "82 08 09 0A");
+  EXPECT_THAT(bench.findings(), testing::ElementsAre("DN301@13"));
+}
+
+TEST(OtherIo, BitStrobeAndMulticastPoll) {
+  Bench bench;
+  bench.start(5).allocate(5, 0x0D).frame(0x408, "20 00 00 00 00 00 00 00");
+  EXPECT_EQ(derived_value(bench.dissection(), "source"), 1);
+  EXPECT_EQ(field_value(bench.dissection(), "bit_strobe", "outputs"), 0x20);
+  bench.frame(0x385, "01");
+  EXPECT_EQ(derived_value(bench.dissection(), "source"), 5);
+  EXPECT_EQ(derived_value(bench.dissection(), "destination"), 1);
+  bench.frame(0x385, "");
+  EXPECT_EQ(derived_value(bench.dissection(), "idle"), 1);
+  bench.frame(0x411, "01 02");  // multicast group 2
+  EXPECT_EQ(derived_value(bench.dissection(), "multicast_group"), 2);
+  EXPECT_EQ(derived_value(bench.dissection(), "source"), -1);
+  bench.frame(0x305, "01 02");
+  EXPECT_EQ(derived_value(bench.dissection(), "source"), 5);
+  EXPECT_EQ(field_value(bench.dissection(), "io", "data"), 0);
+  EXPECT_THAT(bench.findings(), IsEmpty());
+}
+
+TEST(Ucmm, HeartbeatAndShutdown) {
+  Bench bench;
+  bench.frame(0x745, "05 4D 01 00 03 00 34 12");
+  EXPECT_EQ(derived_text(bench.dissection(), "service_name"), "Device_Heartbeat");
+  EXPECT_EQ(field_value(bench.dissection(), "unconnected", "heartbeat_instance"), 1);
+  EXPECT_EQ(field_value(bench.dissection(), "unconnected", "device_state"), 3);
+  EXPECT_EQ(field_value(bench.dissection(), "unconnected", "consistency"), 0x1234);
+  EXPECT_THAT(bench.findings(), IsEmpty());
+  bench.frame(0x745, "05 4E 03 00 01 00 02 00");
+  EXPECT_EQ(field_value(bench.dissection(), "unconnected", "shutdown_class"), 3);
+  EXPECT_EQ(field_value(bench.dissection(), "unconnected", "shutdown_instance"), 1);
+  EXPECT_EQ(field_value(bench.dissection(), "unconnected", "shutdown_code"), 2);
 }
 
 TEST(Reassembly, ProductNameRecognisesTheDrive) {
@@ -137,6 +339,8 @@ TEST(Evidence, EachKindAlone) {
   const auto frames = [](Bench& bench) { return bench.pipeline().checked_frames(); };
   {
     Bench bench{Settings{}};
+    bench.frame(0x42F, "00 00 00 00 00 00 00").frame(0x42F, "00 00 00 00 00 00 00");
+    EXPECT_EQ(frames(bench), 0U) << "no vendor has the number 0";
     bench.frame(0x42F, "00 2C 00 01 02 03 04").frame(0x42F, "00 2C 00 01 02 03 05");
     EXPECT_EQ(frames(bench), 0U) << "another serial number";
     bench.frame(0x42F, "00 2C 00 01 02 03 05");
@@ -191,8 +395,17 @@ TEST(Ucmm, ADynamicConnectionIsFollowed) {
   bench.frame(0x6C2, "05 0E 01 01 01");
   EXPECT_EQ(field_value(bench.dissection(), "explicit", "attribute"), 1);
   EXPECT_EQ(bench.dissection().segments[0].node.mac_id, 5);
-  bench.frame(0x705, "05 8E 2C 00");
+  EXPECT_EQ(derived_value(bench.dissection(), "source"), 2);
+  EXPECT_EQ(derived_value(bench.dissection(), "destination"), 5);
+  bench.frame(0x705, "02 8E 2C 00");  // its identifier holds the sender, its header the other end
   EXPECT_EQ(field_value(bench.dissection(), "identity", "vendor_id"), 44);
+  EXPECT_EQ(derived_value(bench.dissection(), "destination"), 2);
+  EXPECT_EQ(bench.dissection().links[0].frame, 4U);
+  // A product name in fragments: acknowledged from the other side, whose header again holds the other MAC ID.
+  bench.frame(0x6C2, "45 0E 01 01 07").frame(0x705, "C2 00 8E 0A 4A 55 53 50").frame(0x6C2, "C5 C0 00");
+  bench.frame(0x705, "C2 81 2D 4E 53 33 31 30");
+  EXPECT_EQ(field_value(bench.dissection(), "identity", "length"), 10);
+  bench.frame(0x6C2, "C5 C1 00");
   bench.frame(0x782, "05 4C 07 00").frame(0x745, "02 CC");  // closed
   bench.frame(0x6C2, "05 0E 01 01 01");
   EXPECT_EQ(field_value(bench.dissection(), "explicit", "attribute"), -1);

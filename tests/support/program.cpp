@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/golden/cli/program.hpp"
+#include "tests/support/program.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// What the Info column and the evidence lines say of a DeviceNet frame.
+#include "decoder/render/sentence.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/devicenet/bench.hpp"
+
+namespace servotrace::devicenet {
+namespace {
+
+using test::Bench;
+
+TEST(Sentences, OfExplicitMessages) {
+  Bench bench;
+  bench.start(5).frame(0x42E, "01 4B 03 01 03 01");
+  EXPECT_EQ(sentence(bench.dissection()),
+            "node 5 Unconnected explicit request: Allocate_Master/Slave_Connection_Set DeviceNet, Explicit, Poll");
+  bench.frame(0x42B, "01 94 0C 01");
+  EXPECT_EQ(sentence(bench.dissection()),
+            "node 5 Explicit response: Allocate_Master/Slave_Connection_Set DeviceNet, refused: object state conflict "
+            "(owned by another master)");
+  bench.frame(0x42E, "01 4B 03 01 03 01").frame(0x42B, "01 CB 00");
+  bench.frame(0x42C, "01 0E 05 02 09").frame(0x42B, "01 8E C8 00");
+  EXPECT_EQ(sentence(bench.dissection()),
+            "node 5 Explicit response: Get_Attribute_Single Connection Expected packet rate = 200 ms");
+  bench.frame(0x42C, "01 0E 03 01 02").frame(0x42B, "01 94 14 FF");
+  EXPECT_EQ(sentence(bench.dissection()),
+            "node 5 Explicit response: Get_Attribute_Single DeviceNet Baud rate, refused: attribute not supported");
+  bench.frame(0x42C, "01 0E 25 01 06");  // a position controller without a profile
+  EXPECT_EQ(sentence(bench.dissection()), "node 5 Explicit request: Get_Attribute_Single Position Controller");
+}
+
+}  // namespace
+}  // namespace servotrace::devicenet
