@@ -220,7 +220,7 @@ void Bus::poll_begins(const Arrival& arrival, Node& node) {
   const PollState before = poll.state;
   const auto& row = kPollMachine.next(before, PollEvent::kCommand);
   checked(rule("DN201"));
-  if (row.action == PollAction::kNotAllocated) {
+  if (row.action == PollAction::kNotAllocated && !node.change_of_state()) {  // such a connection shares the identifier
     raise(arrival.context, {.rule = rule("DN201"),
                             .owner = node.poll_owner,
                             .arguments = {static_cast<std::int64_t>(before)},
