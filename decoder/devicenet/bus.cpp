@@ -7,6 +7,9 @@
 namespace servotrace::devicenet {
 namespace {
 
+constexpr std::int64_t kInvalidIdentifier = 0;  // argument 0 of DN101
+constexpr std::int64_t kExtendedFrame = 1;
+constexpr std::int64_t kRemoteFrame = 2;
 constexpr std::int64_t kChangeOfStateTransfer = 4;  // argument 0 of DN301 and DN302
 constexpr std::int64_t kMulticastTransfer = 5;
 constexpr DurationNs kErrorPause = kSecondNs;  // error frames closer together are one finding
@@ -160,11 +163,11 @@ void Bus::push(const Context& context, const can::Frame& frame) {
   if (frame.error) {
     push_error(context, frame);
   } else if (frame.extended) {
-    invalid(context, frame, 1);
+    invalid(context, frame, kExtendedFrame);
   } else if (frame.remote) {
-    invalid(context, frame, 2);
+    invalid(context, frame, kRemoteFrame);
   } else if (id.kind() == MessageKind::kInvalid) {
-    invalid(context, frame, 0);
+    invalid(context, frame, kInvalidIdentifier);
     show_identifier({context, frame, id}, nullptr);
   } else {
     push_data({context, frame, id});
@@ -178,8 +181,10 @@ void Bus::push(const Context& context, const can::Frame& frame) {
 }
 
 void Bus::invalid(const Context& context, const can::Frame& frame, std::int64_t kind) {
-  derive(context.dissection, kIdentifierField, frame.identifier,
-         NodeRef{.bus = ref_, .protocol = Protocol::kDevicenet});
+  const NodeRef ref{.bus = ref_, .protocol = Protocol::kDevicenet};
+  if (kind == kExtendedFrame) derive(context.dissection, kMessageField, 0, ref, "Frame with a 29-bit identifier");
+  if (kind == kRemoteFrame) derive(context.dissection, kMessageField, 0, ref, "Remote frame");
+  if (kind != kInvalidIdentifier) derive(context.dissection, kIdentifierField, frame.identifier, ref);
   raise(context, {.rule = rule("DN101"),
                   .owner = owner_,
                   .arguments = {kind, frame.identifier},
@@ -189,7 +194,12 @@ void Bus::invalid(const Context& context, const can::Frame& frame, std::int64_t 
 void Bus::push_error(const Context& context, const can::Frame& frame) {
   if (context.dissection != nullptr) {
     Dissection& dissection = *context.dissection;
-    derive(&dissection, kErrorClassField, frame.identifier, NodeRef{.bus = ref_, .protocol = Protocol::kDevicenet});
+    const NodeRef ref{.bus = ref_, .protocol = Protocol::kDevicenet};
+    derive(&dissection, kMessageField, 0, ref, "CAN error frame");
+    derive(&dissection, kErrorClassField, frame.identifier, ref);
+    for (std::size_t bit = 0; bit < std::size(kErrorBits); ++bit) {
+      if ((frame.identifier >> bit & 1U) != 0) derive(&dissection, kErrorBits[bit], 1, ref);
+    }
     if (fits(kErrorFrame, frame.data)) {
       dissection.add({.layout = &kErrorFrame,
                       .offset = frame.data_offset,

@@ -93,6 +93,20 @@ inline constexpr Field kErrorClassField{.key = "error_class",
                                         .base = Base::kHex,
                                         .section = kLinkSection,
                                         .explanation = "the class bits of a CAN error frame (SocketCAN)"};
+constexpr Field error_bit(std::string_view key, std::string_view label) {
+  return {.key = key, .label = label, .width = 1, .kind = Kind::kBool, .section = kLinkSection};
+}
+// By bit number of the error class.
+inline constexpr Field kErrorBits[] = {error_bit("error_transmit_timeout", "Transmit time-out"),
+                                       error_bit("error_lost_arbitration", "Lost arbitration"),
+                                       error_bit("error_controller", "Controller problem"),
+                                       error_bit("error_protocol", "Protocol violation"),
+                                       error_bit("error_transceiver", "Transceiver fault"),
+                                       error_bit("error_no_ack", "No acknowledgement on transmission"),
+                                       error_bit("error_bus_off", "Bus-off"),
+                                       error_bit("error_bus", "Bus error"),
+                                       error_bit("error_restarted", "Controller restarted"),
+                                       error_bit("error_counters", "Error counters")};
 inline constexpr Field kScannerCodeField{
     .key = "scanner_code",
     .label = "Scanner code",

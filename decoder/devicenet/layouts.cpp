@@ -30,11 +30,15 @@ std::span<const Layout* const> layouts() {
 }
 
 std::span<const Field* const> derived() {
-  static constexpr const Field* kAll[] = {
-      &kIdentifierField,  &kGroupField,          &kMessageIdField,     &kMessageField,        &kSourceField,
-      &kDestinationField, &kMulticastGroupField, &kCheckedField,       &kIdleField,           &kAmbiguousField,
-      &kServiceNameField, &kObjectNameField,     &kAttributeNameField, &kResponseTimeField,   &kPollIntervalField,
-      &kPollStateField,   &kErrorClassField,     &kScannerCodeField,   &kRetransmissionField, &kAllocationErrorField};
+  static const std::vector<const Field*> kAll = [] {
+    std::vector<const Field*> all{
+        &kIdentifierField,  &kGroupField,          &kMessageIdField,     &kMessageField,        &kSourceField,
+        &kDestinationField, &kMulticastGroupField, &kCheckedField,       &kIdleField,           &kAmbiguousField,
+        &kServiceNameField, &kObjectNameField,     &kAttributeNameField, &kResponseTimeField,   &kPollIntervalField,
+        &kPollStateField,   &kErrorClassField,     &kScannerCodeField,   &kRetransmissionField, &kAllocationErrorField};
+    for (const Field& bit : kErrorBits) all.push_back(&bit);
+    return all;
+  }();
   return kAll;
 }
 

@@ -376,6 +376,22 @@ TEST(Evidence, EachKindAlone) {
   }
 }
 
+// Other protocols use identifiers of the predefined set, too: CANopen (process data, SDO, heartbeats of nodes 5, 7 and
+// 45h, 48h), diagnostics of a car, and J1939.
+TEST(Evidence, NoneInOtherProtocols) {
+  Bench bench{Settings{}};
+  for (int i = 0; i < 50; ++i) {
+    bench.frame(0x080, "").frame(0x185, "11 22 33 44").frame(0x205, "01 00").frame(0x285, "55 66").frame(0x305, "02");
+    bench.frame(0x385, "01 02 03 04 05 06 07 08").frame(0x405, "09 0A 0B 0C").frame(0x407, "0D 0E 0F 10 11 12 13 14");
+    bench.frame(0x605, "40 41 60 00 00 00 00 00").frame(0x585, "4B 41 60 00 37 06 00 00");
+    bench.frame(0x705, "05").frame(0x707, "05").frame(0x745, "05").frame(0x748, "05");
+    bench.frame(0x7DF, "02 01 0C 00 00 00 00 00").frame(0x7E8, "04 41 0C 1A F8 00 00 00");
+    bench.frame(0x98FEF100, "FF FF FF 12 34 56 78 9A");
+  }
+  EXPECT_EQ(bench.pipeline().checked_frames(), 0U);
+  EXPECT_TRUE(bench.all().empty());
+}
+
 // What the frames in front of the evidence showed is known, but nothing is reported of them.
 TEST(Evidence, CountsFromTheFrameThatCompletesIt) {
   Bench bench{Settings{}};

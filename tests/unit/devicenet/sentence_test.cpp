@@ -2,6 +2,7 @@
 // What the Info column and the evidence lines say of a DeviceNet frame.
 #include "decoder/render/sentence.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/unit/devicenet/bench.hpp"
@@ -29,6 +30,23 @@ TEST(Sentences, OfExplicitMessages) {
             "node 5 Explicit response: Get_Attribute_Single DeviceNet Baud rate, refused: attribute not supported");
   bench.frame(0x42C, "01 0E 25 01 06");  // a position controller without a profile
   EXPECT_EQ(sentence(bench.dissection()), "node 5 Explicit request: Get_Attribute_Single Position Controller");
+}
+
+// SocketCAN error classes: 40h bus-off, 08h and 80h protocol violation and bus error.
+TEST(Sentences, OfWhatIsNoDevicenetMessage) {
+  Bench bench;
+  bench.frame(0x20000040, "00 00 00 00 00 00 00 00");
+  EXPECT_THAT(sentence(bench.dissection()), testing::StartsWith("CAN error frame: Bus-off"));
+  EXPECT_EQ(test::derived_value(bench.dissection(), "scanner_code"), 91);
+  bench.frame(0x20000088, "00 00 04 00 00 00 00 00");
+  EXPECT_THAT(sentence(bench.dissection()),
+              testing::StartsWith("CAN error frame: Protocol violation, Bus error, bit stuffing error"));
+  bench.frame(0x98FEF100, "01");
+  EXPECT_EQ(sentence(bench.dissection()), "Frame with a 29-bit identifier");
+  bench.frame(0x4000042C, "");
+  EXPECT_EQ(sentence(bench.dissection()), "Remote frame");
+  bench.frame(0x7F5, "");
+  EXPECT_EQ(sentence(bench.dissection()), "Invalid identifier");
 }
 
 }  // namespace
