@@ -39,8 +39,8 @@ TEST(Sentences, OfWhatIsNoDevicenetMessage) {
   EXPECT_THAT(sentence(bench.dissection()), testing::StartsWith("CAN error frame: Bus-off"));
   EXPECT_EQ(test::derived_value(bench.dissection(), "scanner_code"), 91);
   bench.frame(0x20000088, "00 00 04 00 00 00 00 00");
-  EXPECT_THAT(sentence(bench.dissection()),
-              testing::StartsWith("CAN error frame: Protocol violation, Bus error, bit stuffing error"));
+  EXPECT_THAT(sentence(bench.dissection()), testing::StartsWith("CAN error frame: Protocol violation, Bus error"));
+  EXPECT_THAT(sentence(bench.dissection()), testing::HasSubstr("bit stuffing error"));
   bench.frame(0x98FEF100, "01");
   EXPECT_EQ(sentence(bench.dissection()), "Frame with a 29-bit identifier");
   bench.frame(0x4000042C, "");
