@@ -29,7 +29,7 @@ void Engine::count_timing(const Context& context) {
   TimingCount& timing = ring_.timing;
   timing.verdict = TimingCount::Verdict::kNone;
   if (ring_.awake == 0 && timing.known && ring_.record_quiet) {  // every block is as it was
-    if (timing.is_used || timing.any_set) step_timing(context, timing.value);
+    step_timing(context, timing.value);
     return;
   }
   timing.is_used = mode_of(ring_).value == 1;
@@ -80,8 +80,12 @@ void Engine::step_timing(const Context& context, bool value) {
       timing.verdict = timing.passed == period ? TimingCount::Verdict::kInTime : TimingCount::Verdict::kEarly;
     timing.in_phase = true;
   } else if (timing.passed >= period) {
-    timing.verdict = TimingCount::Verdict::kLate;
     timing.in_phase = false;  // the next toggle is late: it sets the phase, nothing more
+    if (!timing.is_used && !timing.any_set) {
+      timing.toggled = ring_.cycle;  // nobody counts
+      return;
+    }
+    timing.verdict = TimingCount::Verdict::kLate;
   } else {
     return;
   }

@@ -65,7 +65,7 @@ TEST(Answers, AlarmCodeOfSomethingElse) {
   bench.at(0).alarm = true;
   bench.cycles(3);
   bench.at(0).data = 86;
-  exchange(bench, 5, 0x000, 3);
+  exchange(bench, 5, 0x000, 1);  // the first of the history
   bench.at(0).alarm = false;
   bench.cycles(3);
   exchange(bench, 5, 0x000);
