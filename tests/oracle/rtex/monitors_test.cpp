@@ -58,7 +58,7 @@ const Row kRows[] = {
 TEST(Monitor, Section6_9_1List) {
   for (const Row& row : kRows) {
     const std::string name = "response." + std::string(row.key);
-    const std::int64_t expected = row.is_signed ? -2 : 0xFFFFFFFE;
+    const std::int64_t expected = row.is_signed ? std::int64_t{-2} : std::int64_t{0xFFFFFFFE};
     for (const std::string_view type : {row.type, row.conventional}) {
       if (type.empty()) continue;
       const auto block = monitor(type, "FE FF FF FF");
@@ -74,7 +74,9 @@ TEST(Monitor, Section6_9_1SubChannel) {
     const auto block =
         Block::response("A3 20 C1 00 00 00 00 00 00 00 00 00 00 00 00 00 0A " + std::string(row.type.substr(0, 2)) +
                         " 00 00 FE FF FF FF 00 00 00 00 00 00 00 00");
-    EXPECT_EQ(block["sub_response." + std::string(row.key)], row.is_signed ? -2 : 0xFFFFFFFE) << row.key;
+    EXPECT_EQ(block["sub_response." + std::string(row.key)],
+              row.is_signed ? std::int64_t{-2} : std::int64_t{0xFFFFFFFE})
+        << row.key;
   }
 }
 
@@ -180,7 +182,8 @@ TEST(Monitor, Section4_3_1ChosenByPr7_29ToPr7_34) {
       const bool is_default_elsewhere =
           row.key == "actual_position" || row.key == "actual_speed" || row.key == "torque";
       if (is_default_elsewhere && place < 3) continue;  // two places show the same monitor
-      EXPECT_EQ(block[name], row.is_signed ? -2 : 0xFFFFFFFE) << name << " in place " << place;
+      EXPECT_EQ(block[name], row.is_signed ? std::int64_t{-2} : std::int64_t{0xFFFFFFFE})
+          << name << " in place " << place;
     }
   }
 }
