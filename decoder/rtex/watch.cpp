@@ -120,10 +120,13 @@ void watch_off(Scene& scene) {
   const std::int64_t distance = magnitude(apart(node.command.data1, position.value));
   if (!off.known || distance <= off.least) {
     const Moment since = off.known ? off.since : scene.now;
+    // The first frame of a standstill, so that a quiet block taken by the short cut changes nothing.
+    const bool stands = off.known && distance == off.least && node.command.data1 == off.at_least;
+    const std::uint64_t frame = stands ? off.frame_least : scene.now.frame;
     off = {.known = true,
            .least = distance,
            .at_least = node.command.data1,
-           .frame_least = scene.now.frame,
+           .frame_least = frame,
            .moves = 0,
            .since = since,
            .moves_now = false};

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "tests/golden/cli/program.hpp"
+#include "tests/support/program.hpp"
 
 namespace servotrace::test {
 namespace {
@@ -96,7 +96,7 @@ class BrokenStream : public Fault, public ::testing::WithParamInterface<const ch
 
 TEST_P(BrokenStream, IsAMessageAndTwo) {
   for (const char* arguments : {"check cut.packed", "check - <cut.packed", "decode cut.packed", "info cut.packed",
-                                "check cut.packed --output text --output jsonl=-"}) {
+                                "check cut.packed --output text --output jsonl=found.jsonl"}) {
     const Outcome outcome = program.shell(std::string("servotrace ") + arguments + " >out");
     EXPECT_EQ(outcome.status, 2) << arguments;
     EXPECT_THAT(outcome.err, HasSubstr("stream ends early")) << arguments;

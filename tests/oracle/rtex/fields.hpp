@@ -24,6 +24,14 @@ class Block {
     if (field == nullptr) return std::nullopt;
     return read(slot_of(*field), bytes);
   }
+  // The same, of the last word of the block that has the name.
+  std::optional<std::int64_t> last(std::string_view name) const {
+    for (std::size_t i = layouts_.count; i-- > 0;) {
+      const Field* field = field_in(*layouts_.words[i], name);
+      if (field != nullptr) return read(slot_of(*field), Bytes(bytes_).subspan(4 * i, 4));
+    }
+    return std::nullopt;
+  }
   const Field* field(std::string_view name) const { return find(name).first; }
   // The name of the value, or "" where it has none.
   std::string_view name(std::string_view key) const {
@@ -45,15 +53,15 @@ class Block {
     const BlockSize size = bytes_.size() >= kWideBlockSize ? BlockSize::kWide : BlockSize::kNarrow;
     layouts_ = is_command ? layouts_of_command(bytes_, size, format) : layouts_of_response(bytes_, size, format);
   }
+  // `name`: the key of the layout, a dot, the key of the field.
+  static const Field* field_in(const Layout& layout, std::string_view name) {
+    if (name.size() <= layout.key.size() || !name.starts_with(layout.key) || name[layout.key.size()] != '.')
+      return nullptr;
+    return layout.find(name.substr(layout.key.size() + 1));
+  }
   std::pair<const Field*, Bytes> find(std::string_view name) const {
     for (std::size_t i = 0; i < layouts_.count; ++i) {
-      const Layout& layout = *layouts_.words[i];
-      if (name.size() <= layout.key.size() || name.substr(0, layout.key.size()) != layout.key ||
-          name[layout.key.size()] != '.') {
-        continue;
-      }
-      const Field* field = layout.find(name.substr(layout.key.size() + 1));
-      if (field != nullptr) return {field, Bytes(bytes_).subspan(4 * i, 4)};
+      if (const Field* field = field_in(*layouts_.words[i], name)) return {field, Bytes(bytes_).subspan(4 * i, 4)};
     }
     return {nullptr, {}};
   }

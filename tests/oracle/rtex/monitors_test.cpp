@@ -58,6 +58,7 @@ const Row kRows[] = {
 TEST(Monitor, Section6_9_1List) {
   for (const Row& row : kRows) {
     const std::string name = "response." + std::string(row.key);
+    if (row.type == "07 00") continue;  // Response_Data1 has the name already: the next test
     const std::int64_t expected = row.is_signed ? std::int64_t{-2} : std::int64_t{0xFFFFFFFE};
     for (const std::string_view type : {row.type, row.conventional}) {
       if (type.empty()) continue;
@@ -67,6 +68,13 @@ TEST(Monitor, Section6_9_1List) {
       EXPECT_EQ(block.field(name)->unit, row.unit) << name;
     }
   }
+}
+
+// The position stands in Response_Data1 and Response_Data2 both; the second is the monitor's.
+TEST(Monitor, Section6_9_1ActualPosition) {
+  const auto block = monitor("07 00", "FE FF FF FF");
+  EXPECT_EQ(block["response.actual_position"], 0);
+  EXPECT_EQ(block.last("response.actual_position"), -2);
 }
 
 TEST(Monitor, Section6_9_1SubChannel) {

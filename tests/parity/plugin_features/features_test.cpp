@@ -110,8 +110,8 @@ TEST_F(Plugin, ProcessValuesOfOneAxis) {
 TEST_F(Plugin, ProcessValuesOfOneNode) {
   const std::string file = shared_->copy(source_dir() / "captures" / "ns310_clean.pcapng").string();
   const Ran ran = tshark_.run({"-r", file, "-Y", "ns310.response.current_position", "-T", "fields", "-e",
-                               "ns310.response.current_position", "-e", "ns310.node3.current_position", "-e",
-                               "ns310.node5.current_position"});
+                               "ns310.response.current_position", "-e", "ns310.node5.current_position", "-e",
+                               "ns310.node3.current_position"});
   ASSERT_EQ(ran.status, 0) << ran.err;
   const auto rows = rows_of(ran.out);
   ASSERT_FALSE(rows.empty());
