@@ -25,7 +25,9 @@ struct Recorded {
   TimeNs time_ns = 0;
   std::vector<std::uint8_t> bytes;
   bool response() const { return (bytes[6] & 1U) != 0; }
-  std::uint32_t sequence() const { return bytes[8] | bytes[9] << 8U | bytes[10] << 16U; }
+  std::uint32_t sequence() const {
+    return std::uint32_t{bytes[8]} | std::uint32_t{bytes[9]} << 8U | std::uint32_t{bytes[10]} << 16U;
+  }
   std::size_t blocks() const { return (bytes.size() - kHeader) / 16; }
   std::vector<std::uint8_t> block(std::size_t i) const {
     const auto from = bytes.begin() + static_cast<std::ptrdiff_t>(kHeader + 16 * i);
