@@ -145,7 +145,9 @@ Outcome check_frames(Bytes bytes) {
     frame.interface_id = static_cast<std::uint32_t>(where >> 4U & 0x3U);
     frame.number = ++outcome.last_frame;
     constexpr DurationNs kUnits[] = {1'000, 250'000, 10'000'000, 1'000'000'000};
-    frame.time_ns += static_cast<DurationNs>(reader.take(1)) * kUnits[flags & 3U];
+    // Any time may be followed by any other: past the last one it stays there.
+    const DurationNs later = static_cast<DurationNs>(reader.take(1)) * kUnits[flags & 3U];
+    if (__builtin_add_overflow(frame.time_ns, later, &frame.time_ns)) frame.time_ns = INT64_MAX;
     if ((flags & 4U) != 0) frame.time_ns = static_cast<TimeNs>(reader.take(8));
     frame.has_time = (flags & 8U) == 0;
     frame.file_order = (flags & 16U) != 0 ? ByteOrder::kBig : ByteOrder::kLittle;
