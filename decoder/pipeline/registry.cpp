@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "decoder/pipeline/registry.hpp"
 
+#include <iterator>
+
 #include "decoder/devicenet/layouts.hpp"
 #include "decoder/profiles/profiles.hpp"
 #include "decoder/rtex/layouts.hpp"
@@ -30,6 +32,7 @@ std::vector<DerivedField> all_derived() {
 
 std::vector<std::string_view> profile_keys() {
   std::vector<std::string_view> keys;
+  keys.reserve(std::size(kProfiles) + 1);
   for (const DriveProfile* profile : kProfiles) keys.push_back(profile->key);
   keys.push_back("generic");
   return keys;

@@ -43,7 +43,7 @@ class LogReader final : public RtexLogSource {
     }
   };
 
-  LogReader(std::unique_ptr<Input> input, std::string name, std::string packed, const RtexLogMap& map)
+  LogReader(std::unique_ptr<Input> input, std::string name, const std::string& packed, const RtexLogMap& map)
       : map_(map), lines_(std::move(input), std::move(name)), separator_(map.separator) {
     format_ = "RTEX log" + packed;
     std::size_t offset = 0;

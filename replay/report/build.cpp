@@ -63,7 +63,7 @@ Result<Built> build_model(const replay::CaptureInput& input, const Settings& set
       if (related != 0) evidence.insert(related);
     }
   }
-  Collector collector(settings, std::move(watches), std::move(evidence));
+  Collector collector(settings, watches, std::move(evidence));
   Gather gather(collector);
   static_cast<void>(replay::run_input(input, settings, {.visitor = &gather}));
   collector.finish(model);
