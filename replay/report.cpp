@@ -9,6 +9,7 @@
 #include "replay/console.hpp"
 #include "replay/exit_status.hpp"
 #include "replay/inputs.hpp"
+#include "replay/report/compare.hpp"
 #include "replay/report/pages.hpp"
 
 namespace servotrace::replay {
@@ -24,6 +25,15 @@ std::optional<Page> page_of(const std::filesystem::path& path) {
   return std::nullopt;
 }
 
+Result<report::Built> build_other(const std::string& path, CaptureOptions& options) {
+  const Result<CaptureInput> input = single_input(path);
+  if (!input) return input.error();
+  if (input->is_stream()) return Error{"-", "a report reads its capture twice; save the stream to a file first"};
+  const Result<std::shared_ptr<const FileSettings>> settings = options.settings(input->path);
+  if (!settings) return settings.error();
+  return report::build_model(*input, settings.value()->decoder, RuleFilter(settings.value()->rules));
+}
+
 }  // namespace
 
 int run_report(const Arguments& arguments) {
@@ -33,8 +43,15 @@ int run_report(const Arguments& arguments) {
   std::string out_path;
   app.add_option("CAPTURE", captures, "files or folders")->required();
   app.add_option("-o,--output-file", out_path, "where to write: FILE.html, FILE.md or FILE.json")->required();
+  std::string against;
+  app.add_option("--against", against, "compare: show where CAPTURE and this one part (one CAPTURE only)")
+      ->type_name("CAPTURE");
   CaptureOptions options;
   options.add_to(app);
+  app.footer(
+      "Exit status: 0 done, 2 could not do the job, 3 no frame of a known bus.\n\n"
+      "Examples:\n  servotrace report run.pcapng -o run.html\n"
+      "  servotrace report good.pcapng --against bad.pcapng -o parted.html");
   if (const auto status = parse(app, arguments)) return *status;
 
   const std::optional<Page> page = page_of(out_path);
@@ -45,6 +62,10 @@ int run_report(const Arguments& arguments) {
   const Result<std::vector<CaptureInput>> inputs = expand_inputs(captures);
   if (!inputs) {
     complain(inputs.error());
+    return kExitFailed;
+  }
+  if (!against.empty() && inputs->size() != 1) {
+    complain("--against compares one capture with one other");
     return kExitFailed;
   }
   std::vector<report::Built> built;
@@ -72,6 +93,14 @@ int run_report(const Arguments& arguments) {
       status = kExitFailed;
     } else if (made->model.verdict.kind == report::VerdictKind::kNothingChecked) {
       status = worse_status(status, kExitNothing);
+    }
+    if (!against.empty()) {
+      Result<report::Built> other = build_other(against, options);
+      if (!other) {
+        complain(other.error());
+        return kExitFailed;
+      }
+      made->model.comparison = report::compare(made->model, other->model);
     }
     if (built.empty()) shown = std::move(decoder);
     built.push_back(std::move(*made));

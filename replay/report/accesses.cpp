@@ -59,7 +59,7 @@ std::string unquoted(std::string text) {
 }  // namespace
 
 std::string_view name_of(AccessKind kind) {
-  constexpr std::string_view kNames[] = {"identity", "read", "write", "alarm", "connection"};
+  constexpr std::string_view kNames[] = {"identity", "read", "write", "program", "alarm", "connection"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 
@@ -67,7 +67,7 @@ AccessLog::Node& AccessLog::node_of(const NodeRef& node) { return nodes_[key_of(
 
 void AccessLog::note(Access access) {
   Node& node = node_of(access.node);
-  if (access.kind != AccessKind::kConnection) {
+  if (access.kind != AccessKind::kConnection && access.kind != AccessKind::kProgram) {
     std::string& known = node.values[access.what];
     access.before = known;
     if (!access.refused) known = access.value;
@@ -129,8 +129,10 @@ void AccessLog::add_rtex(const RawFrame& frame, const Dissection& dissection) {
     } else if (layout == &rtex::kCharacters[0] && echo->layout == &rtex::kSystemIdEcho) {
       const std::int64_t index = read(slot(rtex::kSystemIdEcho, "index_echo"), asked);
       access.kind = AccessKind::kIdentity;
-      access.what = value_text(type, type_code);
-      const std::string piece = unquoted(values_of(*layout, given));
+      const ValueName* name = find_value(rtex::kSystemIdTypes, type_code);
+      access.what = name != nullptr ? std::string(name->name) : value_text(type, type_code);
+      std::string piece = unquoted(values_of(*layout, given));
+      piece.resize(std::min(piece.find("\\x00"), piece.size()));  // NUL ends the string
       // Four characters an index: the pieces of one string are put together (6-4).
       Node& node = node_of(segment.node);
       const std::string place = fmt::format("{}#{}", access.what, index);
@@ -196,11 +198,18 @@ void AccessLog::add_devicenet(const RawFrame& frame, const Dissection& dissectio
   Node& state = node_of(node);
   if (state.open == open) return;  // PRM_ACK stands for several polls
   state.open = open;
-  note({.kind = write ? AccessKind::kWrite : AccessKind::kRead,
+  // Between 500 or 501 and 502 numbers are lines of a channel's program, no parameters (5.3.1).
+  const std::string_view what = asked.substr(0, letters);
+  if (ok && (what == "CH" || what == "TC")) state.in_program = true;
+  const bool in_program = state.in_program;
+  if (ok && what.starts_with("End of reading")) state.in_program = false;
+  note({.kind = in_program ? AccessKind::kProgram
+                : write    ? AccessKind::kWrite
+                           : AccessKind::kRead,
         .time_ns = frame.time_ns,
         .frame = frame.number,
         .node = node,
-        .what = std::string(asked.substr(0, letters)),
+        .what = std::string(what),
         .value = std::string(write ? (ok ? asked.substr(letters) : result) : result),
         .refused = !ok});
 }

@@ -15,7 +15,7 @@
 
 namespace servotrace::report {
 
-enum class AccessKind : std::uint8_t { kIdentity, kRead, kWrite, kAlarm, kConnection };
+enum class AccessKind : std::uint8_t { kIdentity, kRead, kWrite, kProgram, kAlarm, kConnection };
 
 struct Access {
   AccessKind kind = AccessKind::kRead;
@@ -46,6 +46,7 @@ class AccessLog {
     std::string open;     // RTEX: the answer that stands, so that it is noted once
     std::string written;  // DeviceNet: the value of a Set on its way
     std::string string_key;
+    bool in_program = false;                    // ESB
     std::map<std::string, std::string> values;  // by what
   };
 

@@ -22,6 +22,7 @@ class Writer {
     json_.begin_object();
     capture();
     verdict();
+    comparison();
     json_.key("faults").begin_array();
     for (const Fault& fault : model_.faults) write(fault);
     json_.end_array();
@@ -98,6 +99,39 @@ class Writer {
     }
     json_.key("sentences").begin_array();
     for (const std::string& sentence : model_.verdict.sentences) json_.value(sentence);
+    json_.end_array().end_object();
+  }
+
+  void comparison() {
+    if (!model_.comparison) return;
+    const Comparison& other = *model_.comparison;
+    json_.key("comparison").begin_object().member("file", other.file).member("headline", other.headline);
+    json_.key("partings").begin_array();
+    for (const Parting& row : other.partings) {
+      json_.begin_object();
+      node("node", row.node);
+      json_.member("state", row.field->label).member("here", row.here).member("there", row.there);
+      if (row.here_frame != 0) json_.member("here_frame", row.here_frame);
+      if (row.there_frame != 0) json_.member("there_frame", row.there_frame);
+      json_.member("after_ns", row.after_ns).end_object();
+    }
+    json_.end_array().member("more_partings", other.more_partings).key("settings").begin_array();
+    for (const Comparison::Setting& row : other.settings) {
+      json_.begin_object()
+          .member("node", row.node)
+          .member("setting", row.key)
+          .member("here", row.here)
+          .member("there", row.there)
+          .end_object();
+    }
+    json_.end_array().key("rules").begin_array();
+    for (const Comparison::RuleCount& row : other.rules) {
+      json_.begin_object()
+          .member("rule", rule_row(row.rule).id)
+          .member("here", row.here)
+          .member("there", row.there)
+          .end_object();
+    }
     json_.end_array().end_object();
   }
 

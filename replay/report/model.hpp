@@ -140,6 +140,38 @@ struct Capture {
   std::string broken;  // why reading ended early; empty: it did not
 };
 
+// A state that took another turn in the other capture.
+struct Parting {
+  NodeRef node;
+  const Field* field = nullptr;
+  std::string here;  // the value where they part; "stays ..." where it changes in the other capture only
+  std::string there;
+  std::uint64_t here_frame = 0;  // 0: from the start, or it does not change
+  std::uint64_t there_frame = 0;
+  DurationNs after_ns = 0;  // since the start of the other capture, or of this one where only this one changes
+};
+
+// report --against: this capture beside another one.
+struct Comparison {
+  struct Setting {
+    std::string node;  // empty: of a bus
+    std::string key;
+    std::string here;  // empty: this capture does not show it
+    std::string there;
+  };
+  struct RuleCount {
+    RuleId rule{};
+    std::uint64_t here = 0;
+    std::uint64_t there = 0;
+  };
+  std::string file;               // of the other capture
+  std::string headline;           // its verdict
+  std::vector<Parting> partings;  // telling states first, each kind in the order of time
+  std::uint64_t more_partings = 0;
+  std::vector<Setting> settings;
+  std::vector<RuleCount> rules;
+};
+
 struct Model {
   Capture capture;
   Verdict verdict;
@@ -157,6 +189,7 @@ struct Model {
   std::vector<std::string> cannot_show;
   std::map<std::uint64_t, std::string> evidence;  // sentences of the frames findings name
   std::vector<std::string> interface_names;       // by interface id
+  std::optional<Comparison> comparison;
 };
 
 inline constexpr std::size_t kMaxFaults = 12;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "decoder/findings/catalogue.hpp"
 #include "decoder/render/message.hpp"
@@ -17,6 +18,8 @@ namespace {
 constexpr double kWidth = 1100;
 constexpr double kLeft = 190;
 constexpr double kRight = 16;
+constexpr double kBar = 12;        // height of a state's bar
+constexpr double kRow = kBar + 4;  // and with the space below it
 constexpr std::size_t kMaxLanes = 40;
 constexpr std::size_t kMaxRows = 8;      // states a lane
 constexpr std::size_t kMaxBars = 400;    // a row
@@ -51,22 +54,6 @@ void draw_time_axis(Svg& svg, const Model& model, const Axis& axis, double top, 
 
 bool same_node(const NodeRef& left, const NodeRef& right) {
   return left.bus == right.bus && left.mac_id == right.mac_id;
-}
-
-// What a reader looks for first comes first.
-int importance(const Field& field) {
-  const std::string_view key = field.key;
-  for (const std::string_view word :
-       {"alarm", "cmd_error", "command_error", "emergency", "e_stop", "drdy", "block_fault"}) {
-    if (key.find(word) != std::string_view::npos) return 0;
-  }
-  for (const std::string_view word : {"servo", "enable", "svon", "cyclic"}) {
-    if (key.find(word) != std::string_view::npos) return 1;
-  }
-  for (const std::string_view word : {"progress", "busy", "homing", "warning", "limit"}) {
-    if (key.find(word) != std::string_view::npos) return 2;
-  }
-  return 3;
 }
 
 std::string_view mark_class(Severity severity) {
@@ -129,10 +116,11 @@ std::vector<Lane> make_lanes(const Model& model, const Settings& settings, const
   return lanes;
 }
 
+double lane_height(const Lane& lane) { return 34 + kRow * static_cast<double>(lane.tracks.size()); }
+
 // The state over time as bars: dark where it is not 0, named where it has names.
 void draw_track(Svg& svg, const StateTrack& track, const Axis& axis, double y) {
-  constexpr double kBar = 9;
-  svg.text(kLeft - 6, y + 8, track.field->label, "state", "end");
+  svg.text(kLeft - 8, y + 10, track.field->label, "state", "end");
   TimeNs since = track.first_ns;
   std::int64_t value = track.first_value;
   std::size_t bars = 0;
@@ -140,8 +128,13 @@ void draw_track(Svg& svg, const StateTrack& track, const Axis& axis, double y) {
     if (value != 0 && until >= axis.begin_ns && since <= axis.end_ns && bars < kMaxBars) {
       const double x = axis.x(since);
       const bool bad = importance(*track.field) == 0 && track.field->key != "drdy";
-      svg.rectangle(x, y, std::max(axis.x(until) - x, 1.0), kBar, bad ? "bar bad" : "bar",
-                    fmt::format("{}: {}", track.field->label, value_text(*track.field, value)));
+      const double width = std::max(axis.x(until) - x, 1.0);
+      const std::string text = value_text(*track.field, value);
+      svg.rectangle(x, y, width, kBar, bad ? "bar bad" : "bar", fmt::format("{}: {}", track.field->label, text));
+      const ValueName* name = find_value(track.field->values, value);
+      if (track.field->kind != Kind::kBool && name != nullptr &&
+          width > 7.0 * static_cast<double>(name->name.size()) + 6)
+        svg.text(x + 4, y + kBar - 2.5, name->name, "in-bar");
       ++bars;
     }
   };
@@ -155,32 +148,56 @@ void draw_track(Svg& svg, const StateTrack& track, const Axis& axis, double y) {
 
 }  // namespace
 
+int importance(const Field& field) {
+  const std::string_view key = field.key;
+  for (const std::string_view word :
+       {"alarm", "cmd_error", "command_error", "emergency", "e_stop", "drdy", "block_fault"}) {
+    if (key.find(word) != std::string_view::npos) return 0;
+  }
+  for (const std::string_view word : {"servo", "enable", "svon", "cyclic"}) {
+    if (key.find(word) != std::string_view::npos) return 1;
+  }
+  for (const std::string_view word : {"progress", "busy", "homing", "warning", "limit"}) {
+    if (key.find(word) != std::string_view::npos) return 2;
+  }
+  return 3;
+}
+
 std::string timeline(const Model& model, const Settings& settings, const replay::BusNames& buses, TimeNs begin_ns,
                      TimeNs end_ns) {
   const Axis axis{begin_ns, std::max(end_ns, begin_ns + 1)};
   const std::vector<Lane> lanes = make_lanes(model, settings, buses, axis);
   constexpr double kTop = 22;
   double height = kTop;
-  for (const Lane& lane : lanes) height += 30 + 12 * static_cast<double>(lane.tracks.size());
+  for (const Lane& lane : lanes) height += lane_height(lane);
   Svg svg(kWidth, height + 26, "Timeline: states as bars, findings as marks, one lane an axis or node");
-  draw_time_axis(svg, model, axis, kTop - 4, height);
   double y = kTop;
   std::size_t marks = 0;
+  for (std::size_t i = 0; i < lanes.size(); ++i) {
+    if (i % 2 == 0) svg.rectangle(0, y - 2, kWidth, lane_height(lanes[i]), "lane-back");
+    y += lane_height(lanes[i]);
+  }
+  draw_time_axis(svg, model, axis, kTop - 4, height);
+  y = kTop;
   for (const Lane& lane : lanes) {
     svg.line(0, y - 2, kWidth, y - 2, "lane");
     svg.text(4, y + 14, lane.name, "lane-name");
     for (const Finding* finding : lane.findings) {
       if (++marks > kMaxMarks) break;
+      const double x = axis.x(finding->time_ns);
+      if (finding->last_time_ns > finding->time_ns && axis.x(finding->last_time_ns) > x + 1)
+        svg.line(x, y + 19, axis.x(finding->last_time_ns), y + 19,
+                 fmt::format("episode {}", mark_class(finding->severity)));
       svg.mark(mark_shape(finding->severity), axis.x(finding->time_ns), y + 11, mark_class(finding->severity),
                fmt::format("{} {} (frame {}): {}", name_of(finding->severity), rule_row(finding->rule).id,
                            finding->frame, message(*finding)));
     }
-    y += 24;
+    y += 26;
     for (const StateTrack* track : lane.tracks) {
       draw_track(svg, *track, axis, y);
-      y += 12;
+      y += kRow;
     }
-    y += 6;
+    y += 8;
   }
   if (!model.faults.empty()) {
     const Finding& first = model.findings[model.faults.front().finding];
@@ -261,12 +278,14 @@ std::string histogram(const Histogram& histogram, std::string_view bus_name) {
   for (const double mark : ticks(low, high, 8)) {
     const double x = kLeft + (mark - low) / (high - low) * (kWidth - kLeft - kRight);
     svg.line(x, 8, x, kHeight, "grid");
-    svg.text(x, kHeight + 14, fmt::format("{:g} us", mark), "tick", "middle");
+    svg.text(x, kHeight + 14, high >= 10'000 ? fmt::format("{:g} ms", mark / 1e3) : fmt::format("{:g} us", mark),
+             "tick", "middle");
   }
   for (std::size_t i = 0; i < histogram.counts.size(); ++i) {
     if (histogram.counts[i] == 0) continue;
-    const double height =
-        std::max((kHeight - 10) * static_cast<double>(histogram.counts[i]) / static_cast<double>(most), 1.5);
+    const double height = std::max((kHeight - 14) * std::log2(1.0 + static_cast<double>(histogram.counts[i])) /
+                                       std::log2(1.0 + static_cast<double>(most)),
+                                   1.5);
     svg.rectangle(kLeft + width * static_cast<double>(i), kHeight - height, std::max(width - 1, 1.0), height, "bar",
                   fmt::format("{:.1f} to {:.1f} us: {}", low + step * static_cast<double>(i),
                               low + step * static_cast<double>(i + 1), histogram.counts[i]));

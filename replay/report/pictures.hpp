@@ -10,6 +10,10 @@
 
 namespace servotrace::report {
 
+// What a reader looks for first comes first: 0 alarms and errors, 1 servo and mode, 2 motion, homing and limits, 3 the
+// rest.
+int importance(const Field& field);
+
 // A lane a node: states as bars, findings as marks, the first fault as a line. Between the two times.
 std::string timeline(const Model& model, const Settings& settings, const replay::BusNames& buses, TimeNs begin_ns,
                      TimeNs end_ns);
