@@ -109,11 +109,15 @@ Ran Tshark::run(const std::vector<std::string>& arguments, const std::string& pr
   std::string command = "cd " + quoted(folder_.string()) + " && env HOME=/nonexistent XDG_CONFIG_HOME=/nonexistent";
   command += " WIRESHARK_PLUGIN_DIR=" + quoted((folder_ / "plugins").string());
   command += " WIRESHARK_ABORT_ON_DISSECTOR_BUG=1 WIRESHARK_ABORT_ON_TOO_MANY_ITEMS=1";
+  // The stock program is not sanitized, so the sanitizers' library must be there before it.
 #if defined(__SANITIZE_ADDRESS__)
-  // The stock program is not sanitized, so the libraries must be there before it.
   command +=
       " ASAN_OPTIONS=detect_leaks=0 LD_PRELOAD=\"$(gcc -print-file-name=libasan.so):$(gcc "
       "-print-file-name=libubsan.so)\"";
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+  command += " ASAN_OPTIONS=detect_leaks=0 LD_PRELOAD=\"$(clang -print-file-name=libclang_rt.asan-x86_64.so)\"";
+#endif
 #endif
   for (const std::string& setting : environment) command += " " + quoted(setting);
   if (::geteuid() == 0) command += " setpriv --reuid=65534 --regid=65534 --clear-groups";
