@@ -89,6 +89,8 @@ INSTANTIATE_TEST_SUITE_P(
                                "alarm 0Ah Over Load", "YS201", "", 5, "started into an active limit"},
                       Expected{"failure_duplicate_node", "fault", "DN102", 7, "Node 7 (plain) failed first",
                                "vendor 700", "DN102", "", 7, "second device with this MAC ID"},
+                      Expected{"failure_servo_on_jump", "fault", "RX902", 2, "Axis 2 (lift) failed first",
+                               "26.0 over-speed", "RX702", "", 2, "the axis jumped"},
                       Expected{"failure_endless_block", "violations", "YS304", 5, "node 5 (axis)",
                                "never ends and never waits", "YS304", "", 5, "chain of command blocks"}),
     [](const ::testing::TestParamInfo<Expected>& row) { return row.param.scenario; });
@@ -99,7 +101,7 @@ TEST(FailureReportsList, IsWhole) {
   for (const std::filesystem::path& file : scenario_files()) {
     failures += file.stem().string().starts_with("failure_") ? 1 : 0;
   }
-  EXPECT_EQ(failures, 9U);
+  EXPECT_EQ(failures, 10U);
 }
 
 }  // namespace

@@ -65,6 +65,14 @@ TEST(Symptoms, NameRulesThatExist) {
     EXPECT_FALSE(symptom.text.empty());
     EXPECT_FALSE(symptom.section.empty());
   }
+  // One explanation of a report by a cause stands once: a second row would never be reached.
+  for (std::size_t i = 0; i < kSymptoms.size(); ++i) {
+    for (std::size_t j = i + 1; j < kSymptoms.size(); ++j) {
+      EXPECT_FALSE(!kSymptoms[i].cause.empty() && kSymptoms[i].rule == kSymptoms[j].rule &&
+                   kSymptoms[i].argument == kSymptoms[j].argument && kSymptoms[i].cause == kSymptoms[j].cause)
+          << kSymptoms[i].rule << ' ' << kSymptoms[i].argument << ' ' << kSymptoms[i].cause;
+    }
+  }
   for (const FaultRule& row : kFaultRules) EXPECT_NE(find_rule(row.rule), kRuleCount) << row.rule;
 }
 
