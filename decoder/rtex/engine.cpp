@@ -108,6 +108,12 @@ RecordHeader read_header(Bytes record) {
 
 void Engine::run(Scene& scene, Events events) { run_rows(kDispatch, scene, events); }
 
+// Where some rule has to see every block, its node has to be looked at.
+bool Engine::can_rest() {
+  constexpr Events kBlocks = kCommandBlock | kActiveCommand | kResponseBlock | kStatus | kAnswer | kCommandRecord;
+  return (kUnsteady.events & kBlocks) == 0;
+}
+
 // The checks of a quiet block whose outcome may change all the same.
 void Engine::judge_unsteady(const Context& context, Node& node, std::uint32_t block_at, Events events) {
   if ((kUnsteady.events & events) == 0) return;
@@ -152,11 +158,15 @@ Scene Engine::ring_scene(const Context& context) {
 }
 
 void Engine::push(const Context& context, const RecordPlace& place) {
+  if (glances(context, place)) return;
+  end_glances();
   const Bytes record = context.frame.bytes.subspan(place.offset, place.length);
   const RecordHeader header = read_header(record);
   ring_.shared_carrier = place.carrier == Carrier::kEthernet || place.carrier == Carrier::kUdp;
   ring_.time_resolution_ns = context.frame.time_resolution_ns;
+  if (header.sampled != ring_.sampled || context.frame.has_time != ring_.timed) wake_all();
   ring_.sampled = header.sampled;
+  ring_.timed = context.frame.has_time;
   take_header(context, header);
   const Order order = take_sequence(context, header, record);
   bool all_nop = !header.response;
@@ -171,9 +181,32 @@ void Engine::push(const Context& context, const RecordPlace& place) {
     }
     take_command_record(context, header, all_nop);
   }
+  const Bytes blocks = record.subspan(header.header_length);
+  ring_.awake = 0;
+  bool answered = order == Order::kNext && goes_on_resting(context, header.response, blocks);
+  if (!answered) {
+    answered = push_blocks(context, place, header, record, order);
+    if (order == Order::kNext) collect_rest(context, header, record);
+  }
+  if (order == Order::kDuplicate) return;
+  if (header.response) {
+    ring_.last_response_frame = context.frame.number;
+    if (!ring_.running && answered && ring_.cycle_has_command && !ring_.awaiting_start)
+      ring_.running = ring_.had_run = true;
+    end_response_record(context);
+  } else {
+    ring_.last_command = {context.frame.number, context.frame.time_ns, ring_.cycle};
+    end_command_record(context);
+  }
+  judge_deadlines(context);
+  if (rest_.reached) begin_glances(header, record);
+}
+
+// True where a node has answered.
+bool Engine::push_blocks(const Context& context, const RecordPlace& place, const RecordHeader& header, Bytes record,
+                         Order order) {
   std::uint32_t at = header.header_length;
   bool answered = false;
-  ring_.awake = 0;
   for (unsigned i = 0; i < header.node_count; ++i) {
     const BlockSize size = header.size(i);
     const Bytes block = record.subspan(at, static_cast<std::size_t>(size));
@@ -192,17 +225,7 @@ void Engine::push(const Context& context, const RecordPlace& place) {
     if (context.dissection != nullptr) decode(context, node, block, block_at, size, header.response);
     at += static_cast<std::uint32_t>(size);
   }
-  if (order == Order::kDuplicate) return;
-  if (header.response) {
-    ring_.last_response_frame = context.frame.number;
-    if (!ring_.running && answered && ring_.cycle_has_command && !ring_.awaiting_start)
-      ring_.running = ring_.had_run = true;
-    end_response_record(context);
-  } else {
-    ring_.last_command = {context.frame.number, context.frame.time_ns, ring_.cycle};
-    end_command_record(context);
-  }
-  judge_deadlines(context);
+  return answered;
 }
 
 void Engine::decode(const Context& context, const Node& node, Bytes block, std::uint32_t block_at, BlockSize size,
@@ -215,9 +238,9 @@ void Engine::decode(const Context& context, const Node& node, Bytes block, std::
 
 // RX609: only the end of the capture shows that nothing followed.
 void Engine::finish(const Context& context) {
+  wake_all();
   for (const auto& node : ring_.nodes) {
     if (node == nullptr) continue;
-    wake(*node);
     Scene scene = ring_scene(context);
     scene.node = node.get();
     for (const Knowledge::Waiting& entry : node->known.waiting()) {

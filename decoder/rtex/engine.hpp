@@ -4,6 +4,7 @@
 
 #include "decoder/link/rtex_record.hpp"
 #include "decoder/pipeline/summary.hpp"
+#include "decoder/rtex/rest.hpp"
 #include "decoder/rtex/scene.hpp"
 
 namespace servotrace::rtex {
@@ -50,6 +51,8 @@ class Engine {
   Scene ring_scene(const Context& context);
 
   // blocks.cpp
+  bool push_blocks(const Context& context, const RecordPlace& place, const RecordHeader& header, Bytes record,
+                   Order order);
   void push_command(const Context& context, Node& node, Bytes block, std::uint32_t block_at, BlockSize size);
   void push_response(const Context& context, Node& node, Bytes block, std::uint32_t block_at, BlockSize size);
   void name_node(Node& node, std::uint8_t mac_id, bool actual);
@@ -90,13 +93,26 @@ class Engine {
   // where the block is to be judged in full.
   bool quick_command(const Context& context, Node& node, Bytes block, std::uint32_t block_at);
   bool quick_response(const Context& context, Node& node, Bytes block, std::uint32_t block_at);
+  static void follow_command(Node& node, std::uint64_t first_word, std::uint64_t frame);
+  static void follow_response(Node& node, std::uint64_t first_word, std::uint64_t frame, std::int64_t cycle);
   void wake(Node& node);
+  void wake_all();
   static void end_full_command(Node& node, bool same);
   void end_full_response(Node& node, bool same);
   bool ring_is_settled() const;
   static bool same_but_counter(Bytes block, const std::array<std::uint64_t, 4>& raw, BlockSize size);
 
+  // rest.cpp: records of a ring of which every block is quiet
+  bool glances(const Context& context, const RecordPlace& place);
+  void begin_glances(const RecordHeader& header, Bytes record);
+  void end_glances();
+  bool goes_on_resting(const Context& context, bool response, Bytes blocks);
+  void collect_rest(const Context& context, const RecordHeader& header, Bytes record);
+  void end_rest();
+  static bool can_rest();
+
   Ring ring_;
+  Rest rest_;
 };
 
 }  // namespace servotrace::rtex

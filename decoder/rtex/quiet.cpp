@@ -81,6 +81,7 @@ void Engine::end_full_response(Node& node, bool same) {
 
 // Something changes: counts what the checks of the quiet blocks would have counted, while the state is still theirs.
 void Engine::wake(Node& node) {
+  end_rest();
   Quiet& quiet = node.quiet;
   quiet.armed = false;
   Findings& findings = ring_.findings;
@@ -98,55 +99,72 @@ void Engine::wake(Node& node) {
   quiet.commands = quiet.responses = quiet.moves = quiet.holds = 0;
 }
 
-bool Engine::quick_command(const Context& context, Node& node, Bytes block, std::uint32_t block_at) {
-  Quiet& quiet = node.quiet;
-  if (difference(block, node.command_raw, node.wide) != 0) return false;
-  const std::uint64_t first = load_le64(block, 0);
-  const std::uint8_t now = counter_of(first);
-  CounterState& counter = node.counter;
-  const unsigned step = (now - node.command.counter) & 3U;
-  const unsigned expected = ring_.ratio.value == 1 || counter.still == 2 ? 1 : 0;
-  if (step != expected || counter.still > 2) return false;
+void Engine::wake_all() {
+  for (const auto& node : ring_.nodes) {
+    if (node == nullptr) continue;
+    wake(*node);
+    node->quiet.command_streak = node->quiet.response_streak = 0;
+  }
+}
 
-  node.command_raw[0] = first;
+void Engine::follow_command(Node& node, std::uint64_t first_word, std::uint64_t frame) {
+  CounterState& counter = node.counter;
+  const std::uint8_t now = counter_of(first_word);
+  const bool moves = now != node.command.counter;
+  node.command_raw[0] = first_word;
   node.previous.counter = node.command.counter;
   node.command.counter = now;
   node.previous_frame = node.command_frame;
-  node.command_frame = context.frame.number;
+  node.command_frame = frame;
   counter.history = counter.history << 2U | now;
-  ++quiet.commands;
-  if (step != 0) {
+  ++node.quiet.commands;
+  if (moves) {
     node.counter_moved_since_response = true;
     counter.still = 1;
-    counter.last_move_frame = context.frame.number;
-    ++quiet.moves;
+    counter.last_move_frame = frame;
+    ++node.quiet.moves;
   } else {
     ++counter.still;
-    ++quiet.holds;
+    ++node.quiet.holds;
   }
+}
+
+void Engine::follow_response(Node& node, std::uint64_t first_word, std::uint64_t frame, std::int64_t cycle) {
+  node.identical_response = first_word == node.response_raw[0];
+  if (!node.identical_response) {
+    node.same_responses = 0;
+  } else if (node.counter_moved_since_response) {
+    ++node.same_responses;
+  }
+  node.counter_moved_since_response = false;
+  node.response_raw[0] = first_word;
+  node.previous_response.counter = node.response.counter;
+  node.response.counter = counter_of(first_word);
+  node.response_frame = frame;
+  node.response_cycle = cycle;
+  ++node.quiet.responses;
+}
+
+bool Engine::quick_command(const Context& context, Node& node, Bytes block, std::uint32_t block_at) {
+  if (difference(block, node.command_raw, node.wide) != 0) return false;
+  const std::uint64_t first = load_le64(block, 0);
+  const CounterState& counter = node.counter;
+  const unsigned step = (counter_of(first) - node.command.counter) & 3U;
+  const unsigned expected = ring_.ratio.value == 1 || counter.still == 2 ? 1 : 0;
+  if (step != expected || counter.still > 2) return false;
+  follow_command(node, first, context.frame.number);
   judge_unsteady(context, node, block_at, kCommandBlock | kActiveCommand);
   return true;
 }
 
 bool Engine::quick_response(const Context& context, Node& node, Bytes block, std::uint32_t block_at) {
-  Quiet& quiet = node.quiet;
   if (difference(block, node.response_raw, node.wide) != 0 || !ring_.cycle_has_command) return false;
   const std::uint64_t first = load_le64(block, 0);
-  const std::uint8_t echo = counter_of(first);
-  if (echo != (node.counter.history >> (2U * static_cast<unsigned>(ring_.lag)) & 3U)) return false;
+  if (counter_of(first) != (node.counter.history >> (2U * static_cast<unsigned>(ring_.lag)) & 3U)) return false;
   const bool identical = first == node.response_raw[0];
-  const std::uint32_t same = !identical ? 0 : node.same_responses + (node.counter_moved_since_response ? 1 : 0);
-  if (same > 1) return false;  // it may be a stale one
-
-  node.response_raw[0] = first;
-  node.previous_response.counter = node.response.counter;
-  node.response.counter = echo;
-  node.same_responses = same;
-  node.identical_response = identical;
-  node.counter_moved_since_response = false;
-  node.response_frame = context.frame.number;
-  node.response_cycle = ring_.cycle;
-  ++quiet.responses;
+  // It may be a stale one.
+  if (identical && node.same_responses + (node.counter_moved_since_response ? 1 : 0) > 1) return false;
+  follow_response(node, first, context.frame.number, ring_.cycle);
   judge_unsteady(context, node, block_at, kResponseBlock | kStatus | kAnswer);
   return true;
 }

@@ -76,6 +76,7 @@ Engine::Order Engine::take_sequence(const Context& context, const RecordHeader& 
   const bool known = ring_.sequence_known;
   bool& seen = response ? ring_.cycle_has_response : ring_.cycle_has_command;
   if (known && ahead == 0 && seen) {
+    end_rest();
     if (same_as_last(header, record)) return Order::kDuplicate;
     lose_records(context, capture::kLostBack, header.sequence);
     stop_ring();

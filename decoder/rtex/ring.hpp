@@ -305,6 +305,7 @@ struct Ring {
   std::uint32_t wide_nodes = 0;
   std::uint32_t header_cycle_ns = 0;
   bool sampled = false;
+  bool timed = false;  // the last record had a time
 
   // Records
   bool sequence_known = false;

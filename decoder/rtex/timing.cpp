@@ -30,6 +30,7 @@ void Engine::count_timing(const Context& context) {
   timing.verdict = TimingCount::Verdict::kNone;
   if (ring_.awake == 0 && timing.known && ring_.record_quiet) {  // every block is as it was
     step_timing(context, timing.value);
+    if (!ring_.record_quiet) end_rest();  // the rules of the record look at the nodes
     return;
   }
   timing.is_used = mode_of(ring_).value == 1;
