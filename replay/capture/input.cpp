@@ -18,18 +18,28 @@ namespace {
 
 std::string reason(int error) { return std::generic_category().message(error); }
 
+// Shows the file window by window, so that a long one takes no more memory than a short one.
 class MappedInput final : public Input {
  public:
   explicit MappedInput(std::unique_ptr<MappedFile> file) : file_(std::move(file)) {
     const Bytes bytes = file_->bytes();
-    begin_ = cursor_ = bytes.data();
-    end_ = begin_ + bytes.size();
+    begin_ = cursor_ = end_ = bytes.data();
     size_ = bytes.size();
     lost_ = file_->lost();
   }
 
  private:
-  void refill(std::size_t) override {}  // all there is, is there
+  static constexpr std::size_t kWindow = std::size_t{4} << 20U;  // bytes
+
+  void refill(std::size_t count) override {
+    const auto passed = static_cast<std::size_t>(cursor_ - begin_);
+    const auto shown = static_cast<std::size_t>(end_ - begin_);
+    const auto size = static_cast<std::size_t>(size_);
+    const std::size_t wanted = std::min(size, std::max(shown + kWindow, passed + std::min(count, size - passed)));
+    if (wanted == shown) return;
+    file_->advance(passed, shown, wanted);
+    end_ = begin_ + wanted;
+  }
 
   std::unique_ptr<MappedFile> file_;
 };

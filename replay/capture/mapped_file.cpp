@@ -4,6 +4,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <mutex>
 
@@ -73,6 +74,23 @@ std::unique_ptr<MappedFile> MappedFile::map(int descriptor, std::size_t length) 
     return std::unique_ptr<MappedFile>(new MappedFile(address, length, i));
   }
   return nullptr;
+}
+
+void MappedFile::advance(std::size_t passed, std::size_t from, std::size_t to) {
+  const auto at = [this](std::size_t offset) { return static_cast<char*>(address_) + offset; };
+  const std::size_t whole = passed - passed % page_size;
+  if (whole > released_) {
+    ::madvise(at(released_), whole - released_, MADV_DONTNEED);
+    released_ = whole;
+  }
+  // What cannot be read ahead shows when it is touched.
+  const std::size_t begin = from - from % page_size;
+  const std::size_t end = std::min(to, length_);
+  if (begin >= end) return;
+#ifdef MADV_POPULATE_READ
+  if (::madvise(at(begin), end - begin, MADV_POPULATE_READ) == 0) return;
+#endif
+  ::madvise(at(begin), end - begin, MADV_WILLNEED);
 }
 
 MappedFile::~MappedFile() {

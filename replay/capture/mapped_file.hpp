@@ -21,6 +21,10 @@ class MappedFile {
   MappedFile& operator=(const MappedFile&) = delete;
   ~MappedFile();
 
+  // For a reader that goes forward: asks for the bytes from `from` to `to` at once, and lets go of the memory of those
+  // before `passed`. They may still be read: they come from the file again. All are offsets in bytes.
+  void advance(std::size_t passed, std::size_t from, std::size_t to);
+
   Bytes bytes() const { return {static_cast<const std::uint8_t*>(address_), length_}; }
   // Not 0 once a page could not be read. Lives as long as the program.
   const volatile std::sig_atomic_t* lost() const { return lost_; }
@@ -30,6 +34,7 @@ class MappedFile {
   void* address_;
   std::size_t length_;
   std::size_t slot_;
+  std::size_t released_ = 0;  // bytes let go of
   const volatile std::sig_atomic_t* lost_;
 };
 
