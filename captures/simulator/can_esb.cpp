@@ -18,6 +18,7 @@ constexpr std::int64_t kHundredthsPerTurn = 36'000;
 constexpr std::int64_t kStopDeceleration = 40'000'000;  // MD = 0: stop immediately
 constexpr std::int64_t kSensorWidth = 8'000;            // pulses
 constexpr std::int16_t kJump = 640;
+constexpr std::int16_t kDivision = 660;
 constexpr std::int16_t kTimer = 641;
 constexpr std::uint16_t kProgramHome = 141;
 constexpr std::int32_t kExecuteNext = 1;
@@ -198,14 +199,17 @@ std::int64_t Esb::scaled_speed(std::int32_t velocity) const {
 }
 
 // 400-411, and 600-611 of a program.
-bool Esb::position(std::int16_t number, std::int32_t data, std::int32_t velocity, std::int32_t acceleration) {
+bool Esb::position(std::int16_t number, std::int32_t data, std::int32_t velocity, std::int32_t acceleration,
+                   Division division) {
   const int kind = number % 100;
   const std::int64_t now = axis_.position();
   const bool degrees = kind <= 3 || kind == 8 || kind == 9;
   const std::int64_t pulses = degrees ? data * kPulsesPerTurn / kHundredthsPerTurn : std::int64_t{data};
   std::int64_t distance = 0;
   if (kind >= 8) {
-    distance = (kind == 9 || kind == 11) && last_.dir ? -pulses : pulses;
+    // The parts of a divided positioning make up its whole distance exactly.
+    const std::int64_t part = pulses * (division.part + 1) / division.parts - pulses * division.part / division.parts;
+    distance = (kind == 9 || kind == 11) && last_.dir ? -part : part;
   } else {
     const std::int64_t ahead = within_turn(pulses - now);
     switch (kind % 4) {
@@ -282,7 +286,7 @@ void Esb::move_home() {
 }
 
 void Esb::run_command() {
-  const Line& line = programs_[running_channel_][running_line_];
+  Line& line = programs_[running_channel_][running_line_];
   command_started_ = true;
   timer_ms_ = 0;
   if (homes_first_ || line.number == 620) {
@@ -290,7 +294,11 @@ void Esb::run_command() {
   } else if (line.number == kTimer) {
     timer_ms_ = std::int64_t{line.data} * 10;  // one decimal place of 100 ms
   } else if (line.number != kJump) {
-    position(line.number, line.data, line.option(662, parameter(120)), line.option(663, parameter(121)));
+    // The manual names the division and its range (Table 5-9): here every start goes one part of the distance.
+    const std::int32_t parts = line.option(kDivision, 1);
+    position(line.number, line.data, line.option(662, parameter(120)), line.option(663, parameter(121)),
+             {parts, line.parts_done % parts});
+    line.parts_done = (line.parts_done + 1) % parts;
   }
 }
 

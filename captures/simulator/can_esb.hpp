@@ -69,6 +69,7 @@ class Esb : public Slave {
     std::int16_t number = 0;
     std::int32_t data = 0;
     std::map<std::int16_t, std::int32_t> options;
+    std::int32_t parts_done = 0;  // of a divided positioning (660)
     std::int32_t option(std::int16_t number_of_it, std::int32_t otherwise) const;
   };
   using Program = std::vector<Line>;
@@ -88,7 +89,13 @@ class Esb : public Slave {
   bool can_start() const;
   void stop_motion();
   std::int64_t scaled_speed(std::int32_t velocity) const;
-  bool position(std::int16_t number, std::int32_t data, std::int32_t velocity, std::int32_t acceleration);
+  // `part` of `parts`: division of indexing points (660), one part a start.
+  struct Division {
+    std::int64_t parts = 1;
+    std::int64_t part = 0;
+  };
+  bool position(std::int16_t number, std::int32_t data, std::int32_t velocity, std::int32_t acceleration,
+                Division division = {1, 0});
   bool start_home();
   bool start_program(std::uint8_t channel);
   void run_command();

@@ -48,7 +48,22 @@ std::int32_t A5nDrive::to_units(std::int64_t micro) {
 
 std::int32_t A5nDrive::parameter(unsigned parameter_class, unsigned number, std::int32_t otherwise) const {
   const auto found = parameters_.find(static_cast<std::uint16_t>(parameter_class << 8U | number));
-  return found == parameters_.end() ? otherwise : found->second;
+  if (found != parameters_.end()) return found->second;
+  if (parameter_class != 7) return otherwise;
+  // The manual prints no factory settings: these are as the ring runs (2-5-1, 2-5-2).
+  switch (number) {
+    case 20:
+      return timing_.cycles_per_second == 12'000  ? 0
+             : timing_.cycles_per_second == 6'000 ? 1
+             : timing_.cycles_per_second == 2'000 ? 3
+                                                  : 6;
+    case 21:
+      return timing_.ratio;
+    case 22:
+      return (config_.wide ? 1 : 0) | (timing_.full_sync ? 2 : 0);
+    default:
+      return otherwise;
+  }
 }
 
 std::int32_t A5nDrive::speed_in_unit(std::int64_t micro_per_second) const {
@@ -207,7 +222,7 @@ void A5nDrive::follow(std::int64_t target) {
 
 void A5nDrive::move(Bytes command) {
   const std::int64_t before = motor_.position + offset_;
-  if (!servo_active_ || mode_ != kCp) inhibited_ = false;
+  if (!servo_active_ || mode_ == kNoOperation) inhibited_ = false;
   if (!servo_active_) {
     profile_ = {};
     motor_.to_speed(0, kMotorRate, step_ns_);
@@ -245,13 +260,16 @@ void A5nDrive::move(Bytes command) {
     }
     case kCv:
       if (fresh) cp_to_ = speed_from_unit(data1);
-      motor_.to_speed(cp_to_, kMotorRate, step_ns_);
+      refuse_after_stop(is_inhibited(cp_to_));
+      motor_.to_speed(is_inhibited(cp_to_) ? 0 : cp_to_, kMotorRate, step_ns_);
       command_ = motor_.position;
       torque_ = motor_.speed == 0 ? 0 : (motor_.speed > 0 ? 48 : -48);
       break;
     case kCt: {
       if (fresh)
         torque_ = static_cast<std::int32_t>(std::clamp<std::int64_t>(data1, -config_.max_torque, config_.max_torque));
+      refuse_after_stop(is_inhibited(torque_));
+      if (is_inhibited(torque_)) torque_ = 0;
       // 0.1 % of torque for 60 command units a second squared, against friction that grows with the speed.
       const std::int64_t limit =
           speed_from_unit(parameter(7, 25) == 1 ? std::int64_t{config_.units_per_rev} * 50 : 3000);
@@ -271,6 +289,13 @@ void A5nDrive::move(Bytes command) {
   watch_triggers(before);
 }
 
+// 6-10-2: 0046h comes after the stop at the input.
+void A5nDrive::refuse_after_stop(bool toward) { inhibited_ = toward && (inhibited_ || motor_.speed == 0); }
+
+bool A5nDrive::is_inhibited(std::int64_t command) const {
+  return command != 0 && (command > 0 ? 1 : -1) == inhibited_direction();
+}
+
 // Drive inhibit acts where Pr5.04 says so; here only where the scenario does, too.
 int A5nDrive::inhibited_direction() const {
   if (parameter(5, 4, 1) != 0) return 0;
@@ -283,6 +308,18 @@ int A5nDrive::inhibited_direction() const {
 void A5nDrive::move_profile() {
   const std::int64_t up = std::int64_t{std::max(parameter(8, 1, 100), 1)} * 10'000;
   const std::int64_t down = std::int64_t{std::max(parameter(8, 4, 100), 1)} * 10'000;
+  // 0046h: a positioning or a jog toward the input ends there; started at rest or while stopping at it, it is refused,
+  // as long as its command stays (6-10-2).
+  if (profile_.type >= 0x10 && profile_.type <= 0x20) {
+    const std::int64_t way = profile_.type == 0x20 ? profile_.speed : profile_.target - motor_.position;
+    const bool toward = is_inhibited(way);
+    inhibited_ = toward && (stopping_at_input_ || motor_.speed == 0);
+    stopping_at_input_ = toward;
+    if (toward) profile_ = {};
+  } else if (profile_.type != 0 || main_.code != kProfileCommand) {
+    inhibited_ = false;
+  }
+  if (motor_.speed == 0) stopping_at_input_ = false;
   if (hard_stop_) motor_.speed = 0;
   if (profile_.type == 0 || hard_stop_ || smooth_stop_ || pause_) {
     motor_.to_speed(0, down, step_ns_);

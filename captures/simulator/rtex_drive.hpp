@@ -131,7 +131,9 @@ class A5nDrive {
   void follow(std::int64_t target);
   void watch_triggers(std::int64_t before);
   std::uint8_t input_byte() const;
-  int inhibited_direction() const;  // 1 POT, -1 NOT, 0 neither or both
+  void refuse_after_stop(bool toward);
+  bool is_inhibited(std::int64_t command) const;  // its sign is that direction
+  int inhibited_direction() const;                // 1 POT, -1 NOT, 0 neither or both
 
   // rtex_drive_commands.cpp
   void process_main(Bytes command, int cyclic);
@@ -214,7 +216,8 @@ class A5nDrive {
   std::int32_t torque_ = 0;
   bool torque_limited_ = false;
   bool blocked_ = false;
-  bool inhibited_ = false;  // the command goes on in the inhibited direction: 0046h
+  bool inhibited_ = false;          // the command goes on in the inhibited direction: 0046h
+  bool stopping_at_input_ = false;  // in PP, after a positioning toward the input was cut off
   bool homing_complete_ = false;
   bool homing_lock_ = false;  // after Homing_Complete while 24h is held: servo-lock
   Profile profile_;

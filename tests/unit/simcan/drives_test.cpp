@@ -146,5 +146,24 @@ TEST(EsbModel, RunsAProgram) {
   EXPECT_TRUE(read_back) << "848 reads 9000 hundredths of a degree";
 }
 
+// ESB 5.4.5 (660): a divided incremental positioning goes one part a start; the parts make up the whole.
+TEST(EsbModel, DividesAPositioning) {
+  const std::string runs = "{ do = \"run\", channel = 3 }, { do = \"read\", number = 848 }";
+  const auto texts = texts_of(kEsb +
+                              "{ do = \"servo_on\" }, { do = \"write\", number = 121, value = 1000 }, "
+                              "{ do = \"edit_program\", channel = 3, lines = [{ command = 608, data = 9000, "
+                              "division = 4 }] }, " +
+                              runs + ", " + runs + ", " + runs + ", " + runs + "]\n");
+  std::vector<std::string> read;
+  for (std::size_t i = 0; i + 1 < texts.size(); ++i) {
+    if (texts[i].rfind("3C9#00", 0) == 0 && texts[i].substr(12, 6) == "C05003") {
+      read.push_back(texts[i].substr(18) + texts[i + 1].substr(6, 2));
+    }
+  }
+  read.erase(std::unique(read.begin(), read.end()), read.end());
+  // From 18 degrees on: 4050, 6300, 8550 and 10800 hundredths.
+  EXPECT_EQ(read, (std::vector<std::string>{"D20F", "9C18", "6621", "302A"}));
+}
+
 }  // namespace
 }  // namespace servotrace::test
