@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "decoder/pipeline/registry.hpp"
+#include "decoder/profiles/profile.hpp"
 #include "decoder/profiles/profiles.hpp"
 
 namespace servotrace::plugin {
@@ -206,7 +207,7 @@ void register_protocols() {
   Texts& texts = registry().texts;
   add_protocol("rtex", "Realtime Express (RTEX)", "RTEX");
   add_protocol("dnet", "DeviceNet drives", "DNET");
-  for (const DriveProfile* profile : kProfiles) {
+  for (const DriveProfile* profile : profiles()) {
     for (const Layout* layout : profile->layouts) {
       if (find_protocol(layout->protocol) != nullptr) continue;
       std::string column(layout->protocol);

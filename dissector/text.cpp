@@ -23,7 +23,7 @@ const char* unit_text(wmem_allocator_t* pool, const Field& field, std::int64_t v
     if (unit.empty()) return "";
     return wmem_strdup_printf(pool, " %s", pool_text(pool, unit));
   }
-  std::string text = " (" + scaled_text(value, field.scale);
+  std::string text = " (" + scaled_text(value, field.scale, decimal_places(field.scale));
   if (!unit.empty()) {
     text += ' ';
     text += unit;

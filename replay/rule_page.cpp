@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "decoder/render/message.hpp"
+
 namespace servotrace::replay {
 namespace {
 
@@ -54,6 +56,11 @@ std::string rule_page(const Rule& row, const Style& style) {
   text += part("Why it matters", row.why, style);
   text += part("How to fix it", row.fix, style);
   text += part("Manual", row.section, style);
+  if (!row.codes.names.empty()) text += fmt::format("\n{}Codes{}\n", style.bold(), style.reset());
+  for (const ValueName& code : row.codes.names) {
+    if (code.explanation.empty()) continue;
+    text += wrapped(argument_text(row.codes, code.value), 4) + wrapped(code.explanation, 8);
+  }
   std::string how(repeat_text(row.repeat));
   if (row.lowered_when_assumed) {
     how +=

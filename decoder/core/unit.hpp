@@ -14,9 +14,10 @@ enum class Unit : std::uint8_t {
   kRevolutionsPerMinute,
   kTenthPercent,  // torque as the drives send it: 0.1 %
   kPercent,
-  kStep,            // NS310: steps (SIE-C718-7 5.3)
-  kStepPerSecond,   // NS310: steps/s
-  kStepPerSecond2,  // NS310: steps/s^2
+  kStep,                    // NS310: steps (SIE-C718-7 5.3)
+  kStepPerSecond,           // NS310: steps/s
+  kStepPerSecond2,          // NS310: steps/s^2
+  kThousandStepsPerMinute,  // NS310: speeds of class 64h (SIE-C718-7 4.3)
   kPulse,
   kRevolutionsPerSecond,
   kRevolutionsPerSecond2,
@@ -26,6 +27,7 @@ enum class Unit : std::uint8_t {
   kSecond,
   kMinute,
   kHertz,
+  kPerSecond,  // gains
   kVolt,
   kDegree,
   kDegreeCelsius,
@@ -59,6 +61,8 @@ constexpr std::string_view symbol(Unit unit) {
       return "steps/s";
     case Unit::kStepPerSecond2:
       return "steps/s^2";
+    case Unit::kThousandStepsPerMinute:
+      return "x1000 steps/min";
     case Unit::kPulse:
       return "pulses";
     case Unit::kRevolutionsPerSecond:
@@ -77,6 +81,8 @@ constexpr std::string_view symbol(Unit unit) {
       return "min";
     case Unit::kHertz:
       return "Hz";
+    case Unit::kPerSecond:
+      return "1/s";
     case Unit::kVolt:
       return "V";
     case Unit::kDegree:

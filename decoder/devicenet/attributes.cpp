@@ -81,8 +81,7 @@ bool Bus::shown_by_session(const Node& node, const Request& request) const {
 
 void Bus::show_names(const Arrival& arrival, const Node& node, const Request& request) const {
   Dissection* const dissection = arrival.context.dissection;
-  if (const ValueName* name = find_value(kServiceNames, request.service))
-    derive(dissection, kServiceNameField, 0, node.ref, name->name);
+  derive(dissection, kServiceNameField, 0, node.ref, name_of_service(request.service));
   const Row row = find_row(node, request);
   if (row.object != nullptr) derive(dissection, kObjectNameField, 0, node.ref, row.object->name);
   const Attribute* const attribute = request.instance == 0 ? find_class_attribute(request) : row.attribute;

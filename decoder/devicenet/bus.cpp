@@ -2,6 +2,7 @@
 #include "decoder/devicenet/bus.hpp"
 
 #include "decoder/devicenet/derived.hpp"
+#include "decoder/profiles/profile.hpp"
 #include "decoder/profiles/profiles.hpp"
 
 namespace servotrace::devicenet {
@@ -79,7 +80,7 @@ Node& Bus::node(std::int16_t mac_id) {
   made.channel.response_id = group2_id(mac, 3);
   if (const DevicenetNodeSettings* entry = settings_.node(mac_id)) {
     if (!entry->profile.empty()) made.recognised = Recognised::kConfigured;
-    for (const DriveProfile* profile : kProfiles) {
+    for (const DriveProfile* profile : profiles()) {
       if (profile->key == entry->profile) make_session(made, *profile, Recognised::kConfigured, 0);
     }
   }
@@ -151,7 +152,7 @@ void Bus::push(const Context& context, const can::Frame& frame) {
   served_ = nullptr;
   const Identifier id = identify(frame.identifier);
   if (!devicenet_) {
-    const EvidenceKind kind = evidence_.push(id, frame);
+    const EvidenceKind kind = evidence_.push(id, frame, now);
     if (kind != EvidenceKind::kNone) {
       devicenet_ = true;
       evidence_kind_ = kind;
@@ -287,6 +288,10 @@ void Bus::show_plain(const Arrival& arrival, const Node& node, const Layout& lay
 void Bus::push_data(const Arrival& arrival) {
   const Identifier& id = arrival.id;
   const MessageKind kind = id.kind();
+  if (DynamicConnection* const open = opened_on(id)) {
+    push_dynamic(arrival, *open);
+    return;
+  }
   // Whose frame it is: the slave's by its place in the predefined set, else the sender's.
   Node* const entry = id.mac_id == kNoMacId || id.row->role == MacRole::kGroup ? nullptr : &node(id.mac_id);
   show_identifier(arrival, entry);
@@ -316,7 +321,7 @@ void Bus::push_data(const Arrival& arrival) {
       return;
     case MessageKind::kGroup1:
     case MessageKind::kGroup3:
-      push_dynamic(arrival);
+      show_plain(arrival, *entry, kIoData);
       return;
     case MessageKind::kChangeOfState:
       push_io(arrival, *entry, entry->change_of_state_data, kChangeOfStateTransfer);

@@ -161,7 +161,8 @@ class Bus {
   void unconnected_request(const Arrival& arrival, std::uint8_t header, std::uint8_t service);
   void unconnected_response(const Arrival& arrival, Node& sender, std::uint8_t header, std::uint8_t service);
   void opened(const Arrival& arrival, const PendingOpen& open);
-  void push_dynamic(const Arrival& arrival);
+  DynamicConnection* opened_on(const Identifier& id);
+  void push_dynamic(const Arrival& arrival, DynamicConnection& connection);
 
   const Settings& settings_;
   BusRef ref_;

@@ -12,6 +12,8 @@
 namespace servotrace::devicenet {
 
 inline constexpr std::string_view kLinkSection = "DeviceNet link layer";
+// What neither the drive manuals nor the link-layer facts say.
+inline constexpr std::string_view kGeneralSection = "CIP in general (ODVA Vol. 1 and 3), not in the manuals";
 inline constexpr std::uint8_t kMacIds = 64;  // MAC IDs 0..63
 
 enum class MessageKind : std::uint8_t {

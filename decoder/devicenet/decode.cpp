@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "decoder/devicenet/decode.hpp"
 
+#include "decoder/devicenet/objects.hpp"
+
 namespace servotrace::devicenet {
 namespace {
 
@@ -57,19 +59,6 @@ std::size_t value_size(const Layout& layout, Bytes data) {
   return text < data.size() ? 1 + text : 0;
 }
 
-// The values one behind the other from `from` on; what is left is no value's.
-void show_values(Dissection& dissection, const Segment& base, Bytes message, std::size_t from, const Values& values) {
-  std::size_t at = from;
-  for (const Layout* value : values) {
-    if (at >= message.size()) return;
-    const std::size_t size = value_size(*value, message.subspan(at));
-    if (size == 0) break;
-    show(dissection, base, *value, at, size);
-    at += size;
-  }
-  show(dissection, base, at == from ? kData : kSurplus, at, message.size() - at);
-}
-
 const Layout* path_layout(std::uint32_t segment) {
   switch (segment) {
     case 0x20:
@@ -87,13 +76,40 @@ const Layout* path_layout(std::uint32_t segment) {
   }
 }
 
-void show_path(Dissection& dissection, const Segment& base, Bytes message, std::size_t from, std::size_t end) {
+// Segment by segment; from the first that is none of the logical ones on, as `otherwise`.
+void show_path(Dissection& dissection, const Segment& base, Bytes message, std::size_t from, std::size_t end,
+               const Layout& otherwise) {
   while (from < end) {
-    const Layout* const layout = path_layout(load_be(message, from, 1));
+    const Layout* layout = path_layout(load_be(message, from, 1));
+    if (layout != nullptr && layout->size > end - from) layout = nullptr;
     const std::size_t size = layout == nullptr ? end - from : layout->size;
-    show(dissection, base, layout == nullptr ? kData : *layout, from, size);
+    show(dissection, base, layout == nullptr ? otherwise : *layout, from, size);
     from += size;
   }
+}
+
+// The data of a service that no table describes.
+const Layout& data_layout(std::uint8_t service) {
+  if (service >= kFirstVendorService && service < kFirstObjectService) return kVendorData;
+  return service >= kFirstObjectService && service < kEndObjectService ? kObjectData : kData;
+}
+
+// The values one behind the other from `from` on; what is left is no value's.
+void show_values(Dissection& dissection, const Segment& base, Bytes message, std::size_t from, const Values& values,
+                 const Layout& otherwise) {
+  std::size_t at = from;
+  for (const Layout* value : values) {
+    if (at >= message.size()) return;
+    const std::size_t size = value_size(*value, message.subspan(at));
+    if (size == 0) break;
+    if (is_path(*value)) {
+      show_path(dissection, base, message, at, at + size, *value);
+    } else {
+      show(dissection, base, *value, at, size);
+    }
+    at += size;
+  }
+  show(dissection, base, at == from ? otherwise : kSurplus, at, message.size() - at);
 }
 
 }  // namespace
@@ -206,7 +222,7 @@ void show_request(Dissection& dissection, const Segment& base, Bytes message, co
   show(dissection, base, *request.layout, 0, request.layout->size);
   std::size_t shown = request.layout->size;
   if (request.layout == &kPathRequest) {
-    show_path(dissection, base, message, shown, request.data_offset);
+    show_path(dissection, base, message, shown, request.data_offset, kData);
     shown = request.data_offset;
   } else if (request.attribute >= 0) {
     show(dissection, base, kAttribute, shown, 1);
@@ -216,7 +232,7 @@ void show_request(Dissection& dissection, const Segment& base, Bytes message, co
   if (request.malformed == Malformation::kNone && request.service == kGetAttribute) {
     show(dissection, base, kSurplus, shown, message.size() - shown);
   } else {
-    show_values(dissection, base, message, shown, values);
+    show_values(dissection, base, message, shown, values, data_layout(request.service));
   }
 }
 
@@ -225,7 +241,8 @@ void show_response(Dissection& dissection, const Segment& base, Bytes message, c
   if (response.layout == nullptr) return;
   show(dissection, base, *response.layout, 0, response.layout->size);
   if (data_elsewhere && !response.is_error) return;
-  show_values(dissection, base, message, response.layout->size, response.is_error ? Values{} : values);
+  show_values(dissection, base, message, response.layout->size, response.is_error ? Values{} : values,
+              response.is_error ? kData : data_layout(response.service));
 }
 
 }  // namespace servotrace::devicenet

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "decoder/devicenet/bus.hpp"
+#include "decoder/profiles/profile.hpp"
 #include "decoder/profiles/profiles.hpp"
 
 namespace servotrace::devicenet {
@@ -182,7 +183,7 @@ void Bus::identity_read(const Arrival& arrival, Node& node, const PendingRequest
       return;
   }
   if (node.recognised >= Recognised::kIdentity) return;
-  for (const DriveProfile* profile : kProfiles) {
+  for (const DriveProfile* profile : profiles()) {
     bool matches = false;
     if (node.identity_vendor && node.identity_product && node.identity_product->value == profile->product_code) {
       for (const std::uint16_t vendor : profile->vendor_ids) matches = matches || vendor == node.identity_vendor->value;

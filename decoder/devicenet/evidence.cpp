@@ -5,6 +5,13 @@
 #include "decoder/devicenet/fragments.hpp"
 
 namespace servotrace::devicenet {
+namespace {
+
+// Between the two Duplicate MAC ID requests of a node: one second, with what timers and a busy bus make of it.
+constexpr DurationNs kShortestCheckNs = 750 * kMillisecondNs;
+constexpr DurationNs kLongestCheckNs = 1500 * kMillisecondNs;
+
+}  // namespace
 
 std::string_view name_of(EvidenceKind kind) {
   switch (kind) {
@@ -38,6 +45,7 @@ bool Evidence::Parts::continued_by(Bytes data) {
 
 void Evidence::gap() {
   for (Node& node : nodes_) {
+    node.checked = false;
     node.requested = false;
     node.polled = false;
     node.poll_pairs = 0;
@@ -45,7 +53,7 @@ void Evidence::gap() {
   }
 }
 
-EvidenceKind Evidence::push(const Identifier& id, const can::Frame& frame) {
+EvidenceKind Evidence::push(const Identifier& id, const can::Frame& frame, TimeNs time_ns) {
   if (frame.error || frame.extended || frame.remote || id.mac_id < 0) return EvidenceKind::kNone;
   Node& node = nodes_[static_cast<std::size_t>(id.mac_id)];
   const Bytes data = frame.data;
@@ -55,7 +63,11 @@ EvidenceKind Evidence::push(const Identifier& id, const can::Frame& frame) {
       const auto vendor = static_cast<std::uint16_t>(read(slot(kMacCheck, "vendor_id"), data));
       const auto serial = static_cast<std::uint32_t>(read(slot(kMacCheck, "serial_number"), data));
       if (vendor == 0) break;  // nobody's number: a frame of zeros, as other protocols send
-      if (node.checked && node.vendor_id == vendor && node.serial_number == serial) return EvidenceKind::kMacChecks;
+      // A node asks twice, one second apart; the same frame sooner or later is another protocol's periodic one.
+      const bool again = node.checked && node.vendor_id == vendor && node.serial_number == serial;
+      const DurationNs apart = elapsed_ns(node.checked_ns, time_ns);
+      node.checked_ns = time_ns;
+      if (again && apart >= kShortestCheckNs && apart <= kLongestCheckNs) return EvidenceKind::kMacChecks;
       node.checked = true;
       node.vendor_id = vendor;
       node.serial_number = serial;

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "decoder/core/time.hpp"
 #include "decoder/devicenet/can_id.hpp"
 #include "decoder/link/socketcan.hpp"
 
@@ -19,7 +20,7 @@ std::string_view name_of(EvidenceKind kind);
 class Evidence {
  public:
   // A frame of the bus. Returns the kind of evidence that this frame completes, else kNone.
-  EvidenceKind push(const Identifier& id, const can::Frame& frame);
+  EvidenceKind push(const Identifier& id, const can::Frame& frame, TimeNs time_ns);
   // Records were lost: no pair may reach across.
   void gap();
 
@@ -33,6 +34,7 @@ class Evidence {
   };
   struct Node {
     bool checked = false;  // a Duplicate MAC ID request was seen
+    TimeNs checked_ns = 0;
     std::uint16_t vendor_id = 0;
     std::uint32_t serial_number = 0;
     bool requested = false;  // an explicit request is open

@@ -19,7 +19,7 @@ std::span<const Layout* const> layouts() {
         &kFaultedData,  &kOwnership,        &kOwnershipVendor, &kOwnershipHead,   &kOwnershipData,
         &kIoData,       &kBitStrobe,        &kErrorFrame,      &kSurplus,         &kResetType,
         &kPathClass8,   &kPathClass16,      &kPathInstance8,   &kPathInstance16,  &kPathAttribute,
-        &kHeartbeat};
+        &kHeartbeat,    &kVendorData,       &kObjectData};
     for (const Layout& layout : class_attributes().layouts) all.push_back(&layout);
     for (const ObjectClass& object : standard_objects()) {
       for (const Layout& layout : object.layouts) all.push_back(&layout);

@@ -2,9 +2,11 @@
 // Layouts of DeviceNet messages, and the fields no byte holds. All numbers are little-endian.
 #pragma once
 
+#include <array>
 #include <span>
 
 #include "decoder/core/layout_check.hpp"
+#include "decoder/core/text.hpp"
 #include "decoder/devicenet/can_id.hpp"
 
 namespace servotrace::devicenet {
@@ -473,7 +475,7 @@ inline constexpr Field kPathRequestFields[] = {
      .label = "Path size",
      .first_bit = at(2),
      .width = 8,
-     .section = kLinkSection,
+     .section = kGeneralSection,
      .explanation = "16-bit words"},
 };
 inline constexpr Layout kPathRequest{.protocol = "dnet",
@@ -503,6 +505,64 @@ inline constexpr Layout kData{
     .protocol = "dnet", .key = "explicit", .title = "Data", .size = 0, .fields = kDataFields, .section = kLinkSection};
 static_assert(well_formed(kData));
 
+// The data of a service that the maker, or the class, has for itself.
+inline constexpr Field kVendorDataFields[] = {
+    {.key = "vendor_data",
+     .label = "Data of the vendor's service",
+     .first_bit = at(0),
+     .width = 0,
+     .kind = Kind::kBytes,
+     .section = kGeneralSection,
+     .explanation = "services 32h to 4Ah are the maker's own: its manual says what they carry"},
+};
+inline constexpr Layout kVendorData{.protocol = "dnet",
+                                    .key = "explicit",
+                                    .title = "Vendor's service",
+                                    .size = 0,
+                                    .fields = kVendorDataFields,
+                                    .section = kGeneralSection};
+static_assert(well_formed(kVendorData));
+inline constexpr Field kObjectDataFields[] = {
+    {.key = "object_data",
+     .label = "Data of the object's service",
+     .first_bit = at(0),
+     .width = 0,
+     .kind = Kind::kBytes,
+     .section = kGeneralSection,
+     .explanation = "services 4Bh to 63h are the class's own: its definition says what they carry"},
+};
+inline constexpr Layout kObjectData{.protocol = "dnet",
+                                    .key = "explicit",
+                                    .title = "Object's service",
+                                    .size = 0,
+                                    .fields = kObjectDataFields,
+                                    .section = kGeneralSection};
+static_assert(well_formed(kObjectData));
+
+// The names of services that kServiceNames does not have: "service 32h (vendor specific)".
+inline constexpr std::uint8_t kFirstVendorService = 0x32;
+inline constexpr std::uint8_t kFirstObjectService = 0x4B;
+inline constexpr std::uint8_t kEndObjectService = 0x64;
+namespace detail {
+using ServiceText = Text<40>;
+consteval auto service_texts() {
+  constexpr std::string_view kDigits = "0123456789ABCDEF";
+  std::array<ServiceText, 128> texts{};
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    texts[i] << "service " << kDigits.substr(i >> 4U, 1) << kDigits.substr(i & 15U, 1) << "h";
+    if (i >= kFirstVendorService && i < kFirstObjectService) texts[i] << " (vendor specific)";
+    if (i >= kFirstObjectService && i < kEndObjectService) texts[i] << " (object specific)";
+  }
+  return texts;
+}
+inline constexpr auto kServiceTexts = service_texts();
+}  // namespace detail
+// `service`: without the response bit.
+constexpr std::string_view name_of_service(std::uint8_t service) {
+  const ValueName* const name = find_value(kServiceNames, service);
+  return name != nullptr ? name->name : detail::kServiceTexts[service & 0x7FU].view();
+}
+
 // What follows a value, or a request that takes no data.
 inline constexpr Field kSurplusFields[] = {
     {.key = "surplus",
@@ -531,14 +591,14 @@ inline constexpr Field kResetTypeFields[] = {
      .first_bit = at(0),
      .width = 8,
      .values = kResetTypeNames,
-     .section = kLinkSection},
+     .section = kGeneralSection},
 };
 inline constexpr Layout kResetType{.protocol = "dnet",
                                    .key = "explicit",
                                    .title = "Reset type",
                                    .size = 1,
                                    .fields = kResetTypeFields,
-                                   .section = kLinkSection};
+                                   .section = kGeneralSection};
 static_assert(well_formed(kResetType));
 
 // The segments of a CIP path: logical ones of 8 bits, and of 16 bits behind a pad byte.
@@ -553,21 +613,21 @@ inline constexpr Field kPathClass8Fields[] = {
      .width = 8,
      .base = Base::kHex,
      .values = kPathSegmentNames,
-     .section = kLinkSection},
+     .section = kGeneralSection},
     {.key = "class",
      .label = "Class",
      .first_bit = at(1),
      .width = 8,
      .base = Base::kHex,
      .values = kClassNames,
-     .section = kLinkSection},
+     .section = kGeneralSection},
 };
 inline constexpr Layout kPathClass8{.protocol = "dnet",
                                     .key = "explicit",
                                     .title = "Path: class",
                                     .size = 2,
                                     .fields = kPathClass8Fields,
-                                    .section = kLinkSection};
+                                    .section = kGeneralSection};
 static_assert(well_formed(kPathClass8));
 
 inline constexpr Field kPathClass16Fields[] = {
@@ -577,22 +637,22 @@ inline constexpr Field kPathClass16Fields[] = {
      .width = 8,
      .base = Base::kHex,
      .values = kPathSegmentNames,
-     .section = kLinkSection},
-    {.key = "pad", .label = "Pad", .first_bit = at(1), .width = 8, .base = Base::kHex, .section = kLinkSection},
+     .section = kGeneralSection},
+    {.key = "pad", .label = "Pad", .first_bit = at(1), .width = 8, .base = Base::kHex, .section = kGeneralSection},
     {.key = "class",
      .label = "Class",
      .first_bit = at(2),
      .width = 16,
      .base = Base::kHex,
      .values = kClassNames,
-     .section = kLinkSection},
+     .section = kGeneralSection},
 };
 inline constexpr Layout kPathClass16{.protocol = "dnet",
                                      .key = "explicit",
                                      .title = "Path: class",
                                      .size = 4,
                                      .fields = kPathClass16Fields,
-                                     .section = kLinkSection};
+                                     .section = kGeneralSection};
 static_assert(well_formed(kPathClass16));
 
 inline constexpr Field kPathInstance8Fields[] = {
@@ -602,15 +662,15 @@ inline constexpr Field kPathInstance8Fields[] = {
      .width = 8,
      .base = Base::kHex,
      .values = kPathSegmentNames,
-     .section = kLinkSection},
-    {.key = "instance", .label = "Instance", .first_bit = at(1), .width = 8, .section = kLinkSection},
+     .section = kGeneralSection},
+    {.key = "instance", .label = "Instance", .first_bit = at(1), .width = 8, .section = kGeneralSection},
 };
 inline constexpr Layout kPathInstance8{.protocol = "dnet",
                                        .key = "explicit",
                                        .title = "Path: instance",
                                        .size = 2,
                                        .fields = kPathInstance8Fields,
-                                       .section = kLinkSection};
+                                       .section = kGeneralSection};
 static_assert(well_formed(kPathInstance8));
 
 inline constexpr Field kPathInstance16Fields[] = {
@@ -620,16 +680,16 @@ inline constexpr Field kPathInstance16Fields[] = {
      .width = 8,
      .base = Base::kHex,
      .values = kPathSegmentNames,
-     .section = kLinkSection},
-    {.key = "pad", .label = "Pad", .first_bit = at(1), .width = 8, .base = Base::kHex, .section = kLinkSection},
-    {.key = "instance", .label = "Instance", .first_bit = at(2), .width = 16, .section = kLinkSection},
+     .section = kGeneralSection},
+    {.key = "pad", .label = "Pad", .first_bit = at(1), .width = 8, .base = Base::kHex, .section = kGeneralSection},
+    {.key = "instance", .label = "Instance", .first_bit = at(2), .width = 16, .section = kGeneralSection},
 };
 inline constexpr Layout kPathInstance16{.protocol = "dnet",
                                         .key = "explicit",
                                         .title = "Path: instance",
                                         .size = 4,
                                         .fields = kPathInstance16Fields,
-                                        .section = kLinkSection};
+                                        .section = kGeneralSection};
 static_assert(well_formed(kPathInstance16));
 
 inline constexpr Field kPathAttributeFields[] = {
@@ -639,15 +699,15 @@ inline constexpr Field kPathAttributeFields[] = {
      .width = 8,
      .base = Base::kHex,
      .values = kPathSegmentNames,
-     .section = kLinkSection},
-    {.key = "attribute", .label = "Attribute", .first_bit = at(1), .width = 8, .section = kLinkSection},
+     .section = kGeneralSection},
+    {.key = "attribute", .label = "Attribute", .first_bit = at(1), .width = 8, .section = kGeneralSection},
 };
 inline constexpr Layout kPathAttribute{.protocol = "dnet",
                                        .key = "explicit",
                                        .title = "Path: attribute",
                                        .size = 2,
                                        .fields = kPathAttributeFields,
-                                       .section = kLinkSection};
+                                       .section = kGeneralSection};
 static_assert(well_formed(kPathAttribute));
 
 inline constexpr Field kErrorFields[] = {
@@ -1081,27 +1141,31 @@ inline constexpr Field kOpenRequestFields[] = {
      .first_bit = at(2),
      .width = 4,
      .values = kBodyFormatNames,
-     .section = kLinkSection},
+     .section = kGeneralSection},
     {.key = "open_reserved",
      .label = "Reserved",
      .first_bit = at(2, 4),
      .width = 4,
      .base = Base::kHex,
-     .section = kLinkSection},
-    {.key = "source_message_id", .label = "Source message ID", .first_bit = at(3), .width = 4, .section = kLinkSection},
+     .section = kGeneralSection},
+    {.key = "source_message_id",
+     .label = "Source message ID",
+     .first_bit = at(3),
+     .width = 4,
+     .section = kGeneralSection},
     {.key = "group_select",
      .label = "Group select",
      .first_bit = at(3, 4),
      .width = 4,
      .values = kGroupSelectNames,
-     .section = kLinkSection},
+     .section = kGeneralSection},
 };
 inline constexpr Layout kOpenRequest{.protocol = "dnet",
                                      .key = "unconnected",
                                      .title = "Open explicit messaging connection",
                                      .size = 4,
                                      .fields = kOpenRequestFields,
-                                     .section = kLinkSection};
+                                     .section = kGeneralSection};
 static_assert(well_formed(kOpenRequest));
 
 inline constexpr Field kOpenResponseFields[] = {
@@ -1141,31 +1205,35 @@ inline constexpr Field kOpenResponseFields[] = {
      .first_bit = at(2),
      .width = 4,
      .values = kBodyFormatNames,
-     .section = kLinkSection},
+     .section = kGeneralSection},
     {.key = "open_reserved",
      .label = "Reserved",
      .first_bit = at(2, 4),
      .width = 4,
      .base = Base::kHex,
-     .section = kLinkSection},
-    {.key = "source_message_id", .label = "Source message ID", .first_bit = at(3), .width = 4, .section = kLinkSection},
+     .section = kGeneralSection},
+    {.key = "source_message_id",
+     .label = "Source message ID",
+     .first_bit = at(3),
+     .width = 4,
+     .section = kGeneralSection},
     {.key = "destination_message_id",
      .label = "Destination message ID",
      .first_bit = at(3, 4),
      .width = 4,
-     .section = kLinkSection},
+     .section = kGeneralSection},
     {.key = "connection_instance",
      .label = "Connection instance",
      .first_bit = at(4),
      .width = 16,
-     .section = kLinkSection},
+     .section = kGeneralSection},
 };
 inline constexpr Layout kOpenResponse{.protocol = "dnet",
                                       .key = "unconnected",
                                       .title = "Explicit messaging connection opened",
                                       .size = 6,
                                       .fields = kOpenResponseFields,
-                                      .section = kLinkSection};
+                                      .section = kGeneralSection};
 static_assert(well_formed(kOpenResponse));
 
 inline constexpr Field kCloseRequestFields[] = {
@@ -1204,14 +1272,14 @@ inline constexpr Field kCloseRequestFields[] = {
      .label = "Connection instance",
      .first_bit = at(2),
      .width = 16,
-     .section = kLinkSection},
+     .section = kGeneralSection},
 };
 inline constexpr Layout kCloseRequest{.protocol = "dnet",
                                       .key = "unconnected",
                                       .title = "Close connection",
                                       .size = 4,
                                       .fields = kCloseRequestFields,
-                                      .section = kLinkSection};
+                                      .section = kGeneralSection};
 static_assert(well_formed(kCloseRequest));
 
 inline constexpr Field kUnconnectedErrorFields[] = {
@@ -1364,26 +1432,53 @@ inline constexpr Field kHeartbeatFields[] = {
      .label = "Identity instance",
      .first_bit = at(2),
      .width = 16,
-     .section = kLinkSection},
+     .section = kGeneralSection},
     {.key = "device_state",
      .label = "Device state",
      .first_bit = at(4),
      .width = 8,
      .values = kDeviceStateNames,
-     .section = kLinkSection,
+     .section = kGeneralSection,
      .explanation = "as Identity attribute 8"},
-    {.key = "heartbeat_flags",
-     .label = "Event and fault flags",
-     .first_bit = at(5),
-     .width = 8,
+    {.key = "device_fault",
+     .label = "Device fault (DF)",
+     .first_bit = at(5, 0),
+     .width = 1,
+     .kind = Kind::kBool,
+     .section = kGeneralSection,
+     .explanation = "a fault inside the device"},
+    {.key = "user_fault",
+     .label = "User fault (UF)",
+     .first_bit = at(5, 1),
+     .width = 1,
+     .kind = Kind::kBool,
+     .section = kGeneralSection,
+     .explanation = "a fault that a user caused"},
+    {.key = "system_fault",
+     .label = "System fault (SF)",
+     .first_bit = at(5, 2),
+     .width = 1,
+     .kind = Kind::kBool,
+     .section = kGeneralSection,
+     .explanation = "a fault from the traffic of the bus, such as a connection time-out"},
+    {.key = "event",
+     .label = "Event (EV)",
+     .first_bit = at(5, 3),
+     .width = 1,
+     .kind = Kind::kBool,
+     .section = kGeneralSection},
+    {.key = "heartbeat_reserved",
+     .label = "Reserved",
+     .first_bit = at(5, 4),
+     .width = 4,
      .base = Base::kHex,
-     .section = kLinkSection},
+     .section = kGeneralSection},
     {.key = "consistency",
      .label = "Configuration consistency value",
      .first_bit = at(6),
      .width = 16,
      .base = Base::kHex,
-     .section = kLinkSection,
+     .section = kGeneralSection,
      .explanation = "as Identity attribute 9: changes with the configuration"},
 };
 inline constexpr Layout kHeartbeat{.protocol = "dnet",
@@ -1391,7 +1486,7 @@ inline constexpr Layout kHeartbeat{.protocol = "dnet",
                                    .title = "Device heartbeat",
                                    .size = 8,
                                    .fields = kHeartbeatFields,
-                                   .section = kLinkSection};
+                                   .section = kGeneralSection};
 static_assert(well_formed(kHeartbeat));
 
 inline constexpr Field kUnconnectedDataFields[] = {
@@ -1410,15 +1505,15 @@ inline constexpr Field kFaultedFields[] = {
      .label = "Value",
      .first_bit = at(0),
      .width = 6,
-     .section = kLinkSection,
+     .section = kGeneralSection,
      .explanation = "a MAC ID, or a part of the serial number to match"},
-    {.key = "match", .label = "Match", .first_bit = at(0, 6), .width = 1, .section = kLinkSection},
+    {.key = "match", .label = "Match", .first_bit = at(0, 6), .width = 1, .section = kGeneralSection},
     {.key = "faulted_reserved",
      .label = "Reserved",
      .first_bit = at(0, 7),
      .width = 1,
      .base = Base::kHex,
-     .section = kLinkSection},
+     .section = kGeneralSection},
     {.key = "service", .label = "Service", .first_bit = at(1), .width = 7, .base = Base::kHex, .section = kLinkSection},
     {.key = "response",
      .label = "Response",
@@ -1432,31 +1527,31 @@ inline constexpr Layout kFaulted{.protocol = "dnet",
                                  .title = "Communication-faulted message",
                                  .size = 2,
                                  .fields = kFaultedFields,
-                                 .section = kLinkSection};
+                                 .section = kGeneralSection};
 static_assert(well_formed(kFaulted));
 
 inline constexpr Field kFaultedDataFields[] = {
-    {.key = "data", .label = "Data", .first_bit = at(0), .width = 0, .kind = Kind::kBytes, .section = kLinkSection},
+    {.key = "data", .label = "Data", .first_bit = at(0), .width = 0, .kind = Kind::kBytes, .section = kGeneralSection},
 };
 inline constexpr Layout kFaultedData{.protocol = "dnet",
                                      .key = "faulted",
                                      .title = "Data",
                                      .size = 0,
                                      .fields = kFaultedDataFields,
-                                     .section = kLinkSection};
+                                     .section = kGeneralSection};
 static_assert(well_formed(kFaultedData));
 
 inline constexpr ValueName kOwnershipServiceNames[] = {
     {75, "Allocate offline ownership"},
 };
 inline constexpr Field kOwnershipFields[] = {
-    {.key = "client", .label = "Client MAC ID", .first_bit = at(0), .width = 6, .section = kLinkSection},
+    {.key = "client", .label = "Client MAC ID", .first_bit = at(0), .width = 6, .section = kGeneralSection},
     {.key = "ownership_reserved",
      .label = "Reserved",
      .first_bit = at(0, 6),
      .width = 2,
      .base = Base::kHex,
-     .section = kLinkSection},
+     .section = kGeneralSection},
     {.key = "service",
      .label = "Service",
      .first_bit = at(1),
@@ -1475,20 +1570,20 @@ inline constexpr Field kOwnershipFields[] = {
      .first_bit = at(2),
      .width = 16,
      .values = kVendorNames,
-     .section = kLinkSection},
+     .section = kGeneralSection},
     {.key = "serial_number",
      .label = "Serial number",
      .first_bit = at(4),
      .width = 32,
      .base = Base::kHex,
-     .section = kLinkSection},
+     .section = kGeneralSection},
 };
 inline constexpr Layout kOwnership{.protocol = "dnet",
                                    .key = "ownership",
                                    .title = "Offline ownership",
                                    .size = 8,
                                    .fields = kOwnershipFields,
-                                   .section = kLinkSection};
+                                   .section = kGeneralSection};
 static_assert(well_formed(kOwnership));
 
 // What a message holds that ends before its serial number, or before its vendor ID.
@@ -1497,24 +1592,24 @@ inline constexpr Layout kOwnershipVendor{.protocol = "dnet",
                                          .title = "Offline ownership, cut",
                                          .size = 4,
                                          .fields = std::span(kOwnershipFields).first(5),
-                                         .section = kLinkSection};
+                                         .section = kGeneralSection};
 inline constexpr Layout kOwnershipHead{.protocol = "dnet",
                                        .key = "ownership",
                                        .title = "Offline ownership, cut",
                                        .size = 2,
                                        .fields = std::span(kOwnershipFields).first(4),
-                                       .section = kLinkSection};
+                                       .section = kGeneralSection};
 static_assert(well_formed(kOwnershipVendor) && well_formed(kOwnershipHead));
 
 inline constexpr Field kOwnershipDataFields[] = {
-    {.key = "data", .label = "Data", .first_bit = at(0), .width = 0, .kind = Kind::kBytes, .section = kLinkSection},
+    {.key = "data", .label = "Data", .first_bit = at(0), .width = 0, .kind = Kind::kBytes, .section = kGeneralSection},
 };
 inline constexpr Layout kOwnershipData{.protocol = "dnet",
                                        .key = "ownership",
                                        .title = "Data",
                                        .size = 0,
                                        .fields = kOwnershipDataFields,
-                                       .section = kLinkSection};
+                                       .section = kGeneralSection};
 static_assert(well_formed(kOwnershipData));
 
 inline constexpr Field kIoDataFields[] = {
@@ -1524,21 +1619,36 @@ inline constexpr Layout kIoData{
     .protocol = "dnet", .key = "io", .title = "I/O data", .size = 0, .fields = kIoDataFields, .section = kLinkSection};
 static_assert(well_formed(kIoData));
 
-inline constexpr Field kBitStrobeFields[] = {
-    {.key = "outputs",
-     .label = "Outputs",
-     .first_bit = at(0),
-     .width = 64,
-     .base = Base::kHex,
-     .section = kLinkSection,
-     .explanation = "bit n: the output of the slave with MAC ID n"},
-};
+// Bit n is the output of the slave with MAC ID n.
+namespace detail {
+template <std::size_t kCapacity>
+consteval auto numbered(std::string_view front) {
+  std::array<Text<kCapacity>, kMacIds> texts{};
+  for (std::size_t i = 0; i < texts.size(); ++i) texts[i] << front << static_cast<std::int64_t>(i);
+  return texts;
+}
+inline constexpr auto kOutputKeys = numbered<12>("output_");
+inline constexpr auto kOutputLabels = numbered<20>("Output of node ");
+consteval auto bit_strobe_fields() {
+  std::array<Field, kMacIds> fields{};
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    fields[i] = Field{.key = kOutputKeys[i].view(),
+                      .label = kOutputLabels[i].view(),
+                      .first_bit = static_cast<std::uint16_t>(i),
+                      .width = 1,
+                      .kind = Kind::kBool,
+                      .section = kGeneralSection};
+  }
+  return fields;
+}
+}  // namespace detail
+inline constexpr auto kBitStrobeFields = detail::bit_strobe_fields();
 inline constexpr Layout kBitStrobe{.protocol = "dnet",
                                    .key = "bit_strobe",
                                    .title = "Bit-strobe command",
                                    .size = 8,
                                    .fields = kBitStrobeFields,
-                                   .section = kLinkSection};
+                                   .section = kGeneralSection};
 static_assert(well_formed(kBitStrobe));
 
 inline constexpr ValueName kControllerNames[] = {

@@ -129,5 +129,7 @@ const ObjectClass& class_attributes();
 // The objects every DeviceNet device has (1 to 5) with their attributes, and the position controller classes 24h-27h
 // by name.
 std::span<const ObjectClass> standard_objects();
+// True for the value of a connection path attribute: a CIP path, shown segment by segment.
+bool is_path(const Layout& value);
 
 }  // namespace servotrace::devicenet

@@ -4,6 +4,7 @@
 
 #include "decoder/devicenet/bus.hpp"
 #include "decoder/devicenet/derived.hpp"
+#include "decoder/profiles/profile.hpp"
 #include "decoder/profiles/profiles.hpp"
 
 namespace servotrace::devicenet {
@@ -168,7 +169,7 @@ void Bus::push_ambiguous_poll(const Arrival& arrival, Node& node, bool command) 
 void Bus::guess(const Arrival& arrival, Node& node, bool command, const Transfer& transfer) {
   if (node.recognised != Recognised::kNone) return;
   const auto total = transfer.message().size();
-  for (const DriveProfile* profile : kProfiles) {
+  for (const DriveProfile* profile : profiles()) {
     if (profile->command_size <= kFrameData || profile->response_size <= kFrameData) continue;
     std::uint8_t& seen = command ? node.poll.guess_commands : node.poll.guess_responses;
     if (total != (command ? profile->command_size : profile->response_size)) {

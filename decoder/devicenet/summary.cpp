@@ -12,7 +12,7 @@ std::string recognised_text(const Node& node) {
     case Recognised::kConfigured:
       return "configured";
     case Recognised::kIdentity:
-      return "identity";
+      return "identity (frame " + std::to_string(node.recognised_frame) + ")";
     case Recognised::kGuessed:
       return "guessed by I/O sizes";
     case Recognised::kNone:

@@ -175,17 +175,36 @@ void Bus::opened(const Arrival& arrival, const PendingOpen& open) {
   dynamic_.push_back(connection);
 }
 
-// A frame of groups 1 or 3 outside the predefined set: explicit where a connection was seen to be opened on it.
-void Bus::push_dynamic(const Arrival& arrival) {
-  for (DynamicConnection& connection : dynamic_) {
-    const bool request = connection.channel.request_id == arrival.id.value;
-    if (!request && connection.channel.response_id != arrival.id.value) continue;
-    const Node& server = node(static_cast<std::int16_t>(connection.server));
-    derive(arrival.context.dissection, kDestinationField, request ? connection.server : connection.client, server.ref);
-    push_explicit(arrival, node(static_cast<std::int16_t>(connection.server)), connection.channel, request);
-    return;
+// The connection that was seen to be opened on this identifier. The explicit ports of the predefined set stay what they
+// are: a connection opened on them carries the same.
+DynamicConnection* Bus::opened_on(const Identifier& id) {
+  if (dynamic_.empty() || id.kind() == MessageKind::kExplicitRequest || id.kind() == MessageKind::kExplicitResponse ||
+      id.kind() == MessageKind::kUnconnectedRequest || id.kind() == MessageKind::kMacCheck) {
+    return nullptr;
   }
-  show_plain(arrival, node(arrival.id.mac_id), kIoData);
+  for (DynamicConnection& connection : dynamic_) {
+    if (connection.channel.request_id == id.value || connection.channel.response_id == id.value) return &connection;
+  }
+  return nullptr;
+}
+
+void Bus::push_dynamic(const Arrival& arrival, DynamicConnection& connection) {
+  const Identifier& id = arrival.id;
+  const bool request = connection.channel.request_id == id.value;
+  Node& server = node(static_cast<std::int16_t>(connection.server));
+  const std::uint8_t sender = request ? connection.client : connection.server;
+  transmitted(arrival, node(static_cast<std::int16_t>(sender)));
+  if (Dissection* const dissection = arrival.context.dissection) {
+    dissection->direction = request ? Direction::kCommand : Direction::kResponse;
+    derive(dissection, kIdentifierField, id.value, server.ref);
+    derive(dissection, kMessageField, 0, server.ref,
+           request ? "Explicit request (opened connection)" : "Explicit response (opened connection)");
+    derive(dissection, kGroupField, id.group, server.ref);
+    derive(dissection, kMessageIdField, id.message_id, server.ref);
+    derive(dissection, kSourceField, sender, server.ref);
+    derive(dissection, kDestinationField, request ? connection.server : connection.client, server.ref);
+  }
+  push_explicit(arrival, server, connection.channel, request);
 }
 
 }  // namespace servotrace::devicenet

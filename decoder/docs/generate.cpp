@@ -14,6 +14,7 @@
 
 #include "decoder/findings/catalogue.hpp"
 #include "decoder/pipeline/registry.hpp"
+#include "decoder/render/message.hpp"
 
 namespace servotrace {
 namespace {
@@ -179,6 +180,11 @@ std::string rules_page() {
   for (const Rule& rule : kCatalogue) {
     text += fmt::format("\n## {} {}\n\n**{}** ({}, {}; {})\n\n{}\n\n*What to do:* {}\n", rule.id, rule.slug, rule.title,
                         name_of(rule.severity), name_of(rule.actor), rule.section, rule.why, rule.fix);
+    if (!rule.codes.names.empty()) text += "\n| code | meaning |\n|---|---|\n";
+    for (const ValueName& code : rule.codes.names) {
+      if (code.explanation.empty()) continue;
+      text += fmt::format("| {} | {} |\n", escaped(argument_text(rule.codes, code.value)), escaped(code.explanation));
+    }
     if (rule.hosts == Hosts::kOfflineOnly)
       text += "\nFound by the command line only: Wireshark does not hand a plugin what it takes.\n";
     if (rule.lowered_when_assumed)

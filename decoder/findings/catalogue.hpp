@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The catalogue: every rule of every block, checked at compile time. A block adds itself by one line in kCatalogue.
+// The catalogue: every rule of every block, checked at compile time. A protocol adds its block in kCatalogue, a drive
+// profile in profiles.hpp.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
@@ -11,8 +13,7 @@
 #include "decoder/findings/finding.hpp"
 #include "decoder/findings/rule.hpp"
 #include "decoder/pipeline/rules.hpp"
-#include "decoder/profiles/nsk_esb/rules.hpp"
-#include "decoder/profiles/yaskawa_ns310/rules.hpp"
+#include "decoder/profiles/profiles.hpp"
 #include "decoder/rtex/rules.hpp"
 
 namespace servotrace {
@@ -25,14 +26,27 @@ constexpr const Rule& row_of(const ProtocolRule& rule) {
   return rule.row;
 }
 
-template <class... Blocks>
+template <class List>
+consteval std::size_t count_rules() {
+  std::size_t count = 0;
+  List::for_each_rules([&](const auto& block) { count += block.size(); });
+  return count;
+}
+
+// The protocols' blocks and those of the profiles, in the order of the ids. Each block is in order itself.
+template <class List, class... Blocks>
 consteval auto join(const Blocks&... blocks) {
-  std::array<Rule, (std::tuple_size_v<Blocks> + ...)> all{};
-  std::size_t next = 0;
+  constexpr std::size_t kCount = (std::tuple_size_v<Blocks> + ...) + count_rules<List>();
+  std::array<const Rule*, kCount> rows{};
+  std::size_t count = 0;
   const auto append = [&](const auto& block) {
-    for (const auto& rule : block) all[next++] = row_of(rule);
+    for (const auto& rule : block) rows[count++] = &row_of(rule);
   };
   (append(blocks), ...);
+  List::for_each_rules(append);
+  std::sort(rows.begin(), rows.end(), [](const Rule* left, const Rule* right) { return left->id < right->id; });
+  std::array<Rule, kCount> all{};
+  for (std::size_t i = 0; i < kCount; ++i) all[i] = *rows[i];
   return all;
 }
 
@@ -48,8 +62,7 @@ consteval bool legal(const std::array<Rule, kSize>& rules) {
 
 // In the order of the ids. That no slug stands twice in a block is held in catalogue.cpp, which alone pays for the
 // comparison.
-inline constexpr auto kCatalogue =
-    detail::join(capture::kRules, devicenet::kRules, esb::kRules, rtex::kRules, ns310::kRules);
+inline constexpr auto kCatalogue = detail::join<Profiles>(capture::kRules, devicenet::kRules, rtex::kRules);
 inline constexpr std::size_t kRuleCount = kCatalogue.size();
 static_assert(detail::legal(kCatalogue), "a rule row is incomplete, or out of the order of the ids");
 

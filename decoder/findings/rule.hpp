@@ -39,6 +39,7 @@ enum class ArgumentFormat : std::uint8_t {
   kDecimalName,   // 3 (name)
   kParameter,     // 0717h as Pr7.23
   kMainSub,       // 5602h as 86.2 (name)
+  kExactly,       // 5602h as ", exactly 86.2 (name)"; nothing below 0
   kMilliseconds,  // nanoseconds, printed in ms with three places
   kMicroseconds,  // nanoseconds, printed in us with one place
   kBits,          // a set of places or MAC IDs: "1, 4, 7"
@@ -61,8 +62,10 @@ struct Rule {
   std::string_view message;  // {0}..{3} stand for the arguments; no full stop
   std::array<Argument, kMaxArguments> arguments = {};
   std::string_view section;  // manual and section
-  std::string_view why;      // why it matters, what follows
-  std::string_view fix;      // what to do about it
+  // The codes a report of the drive can name, each with what the manual says of it as explanation.
+  Argument codes = {};
+  std::string_view why;  // why it matters, what follows
+  std::string_view fix;  // what to do about it
   Repeat repeat = Repeat::kEpisode;
   Hosts hosts = Hosts::kBoth;
   bool lowered_when_assumed = false;  // one severity lower, and once a node, where it rests on an assumption

@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "decoder/devicenet/layouts.hpp"
+#include "decoder/profiles/profile.hpp"
 #include "decoder/profiles/profiles.hpp"
 #include "decoder/rtex/layouts.hpp"
 
@@ -16,7 +17,7 @@ std::vector<const Layout*> all_layouts() {
   };
   append(rtex::layouts());
   append(devicenet::layouts());
-  for (const DriveProfile* profile : kProfiles) append(profile->layouts);
+  for (const DriveProfile* profile : profiles()) append(profile->layouts);
   return all;
 }
 
@@ -24,7 +25,7 @@ std::vector<DerivedField> all_derived() {
   std::vector<DerivedField> all;
   for (const Field* field : rtex::derived()) all.push_back({"rtex", field});
   for (const Field* field : devicenet::derived()) all.push_back({"dnet", field});
-  for (const DriveProfile* profile : kProfiles) {
+  for (const DriveProfile* profile : profiles()) {
     for (const Field* field : profile->derived) all.push_back({profile->protocol, field});
   }
   return all;
@@ -32,8 +33,8 @@ std::vector<DerivedField> all_derived() {
 
 std::vector<std::string_view> profile_keys() {
   std::vector<std::string_view> keys;
-  keys.reserve(std::size(kProfiles) + 1);
-  for (const DriveProfile* profile : kProfiles) keys.push_back(profile->key);
+  keys.reserve(profiles().size() + 1);
+  for (const DriveProfile* profile : profiles()) keys.push_back(profile->key);
   keys.push_back("generic");
   return keys;
 }

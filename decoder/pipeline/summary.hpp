@@ -23,7 +23,7 @@ struct NodeSummary {
   NodeRef node;
   std::string name;        // from the settings, or empty
   std::string profile;     // "minas-a5n", "yaskawa-ns310", "nsk-esb", "generic"; empty: not recognised
-  std::string recognised;  // how: "configured", "identity", "guessed by I/O sizes", ...
+  std::string recognised;  // how: "configured", "identity (frame 12)", "guessed by I/O sizes", ...
   std::vector<Fact> facts;
 };
 

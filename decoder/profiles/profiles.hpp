@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-// The drive profiles there are: one line a profile.
+// The drive profiles there are: one line a profile (and its include). The catalogue takes their rules from here, the
+// DeviceNet stage and the plugin everything else.
 #pragma once
 
-#include <array>
-
-#include "decoder/profiles/nsk_esb/profile.hpp"
-#include "decoder/profiles/profile.hpp"
-#include "decoder/profiles/yaskawa_ns310/profile.hpp"
+#include "decoder/profiles/nsk_esb/rules.hpp"
+#include "decoder/profiles/profile_list.hpp"
+#include "decoder/profiles/yaskawa_ns310/rules.hpp"
 
 namespace servotrace {
 
-inline constexpr std::array kProfiles = {
-    &ns310::kProfile,
-    &esb::kProfile,
-};
+using Profiles = ProfileList<  //
+    ns310::Profile,            //
+    esb::Profile>;
+
+inline auto profiles() { return Profiles::rows(); }
 
 }  // namespace servotrace

@@ -6,7 +6,6 @@
 #include "decoder/findings/catalogue.hpp"
 
 namespace servotrace {
-namespace {
 
 std::string argument_text(const Argument& argument, std::int64_t value) {
   const ValueName* name = find_value(argument.names, value);
@@ -38,6 +37,9 @@ std::string argument_text(const Argument& argument, std::int64_t value) {
       return fmt::format("Pr{}.{:02}", unsigned32 >> 8U & 0xFFU, unsigned32 & 0xFFU);
     case ArgumentFormat::kMainSub:
       return with_name(fmt::format("{}.{}", unsigned32 >> 8U & 0xFFU, unsigned32 & 0xFFU));
+    case ArgumentFormat::kExactly:
+      return value < 0 ? std::string()
+                       : ", exactly " + argument_text({ArgumentFormat::kMainSub, argument.names}, value);
     case ArgumentFormat::kMilliseconds:
       return fmt::format("{:.3f}", static_cast<double>(value) / 1e6);
     case ArgumentFormat::kMicroseconds:
@@ -56,8 +58,6 @@ std::string argument_text(const Argument& argument, std::int64_t value) {
   }
   return {};
 }
-
-}  // namespace
 
 std::string message(const Finding& finding) {
   const Rule& row = rule_row(finding.rule);

@@ -108,11 +108,32 @@ std::string field_word(const Field& field, std::int64_t raw, Bytes under) {
   return {};
 }
 
-// What of a segment is worth a word: named values, set flags, process values.
+// The sub-command channel at rest: its Type_Code and Index mean nothing.
+bool is_idle_sub(const Layout& layout, Bytes bytes) {
+  if (!layout.key.starts_with("sub_")) return false;
+  for (const std::string_view key : {"command", "command_echo"}) {
+    const Field* const code = layout.find(key);
+    if (code != nullptr && read(slot_of(*code), bytes) == 0) return true;
+  }
+  return false;
+}
+bool is_argument(const Field& field) {
+  static constexpr std::string_view kArguments[] = {"type_code", "type_code_echo", "index", "index_echo"};
+  return std::find(std::begin(kArguments), std::end(kArguments), field.key) != std::end(kArguments);
+}
+
+// What of a segment is worth a word: named values, set flags, process values, and a quantity that stands alone.
 std::string segment_words(const Segment& segment, Bytes bytes) {
   std::string words;
   std::string flags;
+  const bool idle_sub = is_idle_sub(*segment.layout, bytes);
   for_each_field(*segment.layout, bytes, [&](const Field& field, std::int64_t raw, Bytes under) {
+    if (idle_sub && is_argument(field)) return;
+    const bool alone = segment.layout->fields.size() == 1 && slot_of(field).width != 0;
+    if (alone && field.unit != Unit::kNone && field.role != Role::kSignal && field.values.empty()) {
+      words = fmt::format("{} {}", short_label(field.label), value_text(field, raw));
+      return;
+    }
     const bool flag = field.kind == Kind::kBool || field.width == 1;
     join(flag ? flags : words, flag ? " " : ", ", field_word(field, raw, under));
   });

@@ -8,6 +8,8 @@
 namespace servotrace {
 namespace {
 
+constexpr unsigned kMostDecimalPlaces = 4;  // of a manual; finer scales are conversions
+
 bool is_number(const Field& field) { return slot_of(field).width != 0; }
 
 // Days since 1970-01-01 to the civil date (proleptic Gregorian).
@@ -66,6 +68,25 @@ std::string scaled_text(std::int64_t raw, Ratio scale) {
   return text + "." + digits;
 }
 
+std::string scaled_text(std::int64_t raw, Ratio scale, unsigned places) {
+  std::string text = scaled_text(raw, scale);
+  const std::size_t point = text.find('.');
+  const std::size_t shown = point == std::string::npos ? 0 : text.size() - point - 1;
+  if (shown >= places) return text;
+  if (shown == 0) text += '.';
+  return text.append(places - shown, '0');
+}
+
+unsigned decimal_places(Ratio scale) {
+  unsigned places = 0;
+  std::int32_t rest = scale.denominator;
+  while (rest % 10 == 0) {
+    rest /= 10;
+    ++places;
+  }
+  return scale.numerator == 1 && rest == 1 && places <= kMostDecimalPlaces ? places : 0;
+}
+
 std::string number_text(const Field& field, std::int64_t raw) {
   if (field.base == Base::kHex) {
     const std::uint64_t mask =
@@ -74,7 +95,7 @@ std::string number_text(const Field& field, std::int64_t raw) {
     return fmt::format("{:0{}X}h", static_cast<std::uint64_t>(raw) & mask, digits);
   }
   if (field.kind == Kind::kUnsigned && raw < 0) return fmt::format("{}", static_cast<std::uint64_t>(raw));
-  return scaled_text(raw, field.scale);
+  return scaled_text(raw, field.scale, decimal_places(field.scale));
 }
 
 std::string value_text(const Field& field, std::int64_t raw) {

@@ -14,8 +14,13 @@ namespace servotrace {
 
 // raw * ratio as a decimal number, exact where nine places suffice, without trailing zeros: "12", "-0.1".
 std::string scaled_text(std::int64_t raw, Ratio scale);
+// The same with `places` behind the point at least: "45.0".
+std::string scaled_text(std::int64_t raw, Ratio scale, unsigned places);
+// The decimal places a manual gives such a value: 3 for 1/1000; 0 where the scale is no decimal point.
+unsigned decimal_places(Ratio scale);
 
-// The number without name or unit: "12", "-0.1", "1Fh" (as many digits as the field is wide).
+// The number without name or unit, with the manual's decimal places: "12", "45.0", "-0.1", "1Fh" (as many digits as the
+// field is wide).
 std::string number_text(const Field& field, std::int64_t raw);
 
 // The value as people read it: "31h (Z phase)", "12.5 r/min", "CP cyclic position (2)".

@@ -3,7 +3,10 @@
 // table is shown as its number.
 #pragma once
 
+#include <array>
+
 #include "decoder/core/layout.hpp"
+#include "decoder/core/text.hpp"
 
 namespace servotrace::rtex {
 
@@ -128,6 +131,34 @@ inline constexpr AlarmRow kAlarms[] = {
     {98, 3, "RTEX hardware error 3", Clearable::kNo, "a fault of the RTEX circuit", "replace the drive",
      "SX-DSV02203 8-1-11"},
 };
+
+namespace detail {
+using AlarmPage = Text<400>;
+consteval auto alarm_pages() {
+  std::array<AlarmPage, std::size(kAlarms)> pages{};
+  for (std::size_t i = 0; i < pages.size(); ++i) {
+    const AlarmRow& row = kAlarms[i];
+    if (!row.cause.empty()) pages[i] << "cause: " << row.cause << "; ";
+    if (!row.action.empty()) pages[i] << "remedy: " << row.action << "; ";
+    if (row.clearable == Clearable::kYes) pages[i] << "can be cleared; ";
+    if (row.clearable == Clearable::kNo) pages[i] << "cannot be cleared; ";
+    pages[i] << row.section;
+    if (pages[i].is_full()) throw "an alarm's page does not fit";
+  }
+  return pages;
+}
+inline constexpr auto kAlarmPages = alarm_pages();
+consteval auto alarm_table() {
+  std::array<ValueName, std::size(kAlarms)> rows{};
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i] = {std::int64_t{kAlarms[i].main} << 8 | kAlarms[i].sub, kAlarms[i].name, kAlarmPages[i].view()};
+  }
+  return rows;
+}
+}  // namespace detail
+
+// Every alarm the manual names with cause and remedy, for the rule's page. The value is main and sub number.
+inline constexpr auto kAlarmTable = detail::alarm_table();
 
 // The main number alone (Pr7.23 bit 1 = 0): all that its sub numbers can mean.
 inline constexpr ValueName kAlarmMainNames[] = {

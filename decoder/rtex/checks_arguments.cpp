@@ -175,6 +175,8 @@ Outcome result_not_read(Scene& scene) {
       scene.node->mode_changed) {
     return Outcome::kSilent;
   }
+  // Left while Busy, seen to be so: that act is RX304.
+  if (channel.step == HandshakeStep::kLeftBusy && scene.node->response_chain) return Outcome::kSilent;
   if (hold.complete) return Outcome::kPassed;
   return scene.raise({.arguments = {hold.part.code, hold.part.type_code},
                       .where = scene.code(),

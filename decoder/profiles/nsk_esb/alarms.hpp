@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "decoder/core/layout.hpp"
+#include "decoder/core/text.hpp"
 
 namespace servotrace::esb {
 
@@ -140,5 +141,38 @@ consteval auto alarm_names(std::index_sequence<kIndices...>) {
 }  // namespace detail
 // Names of the bits of a set of alarms: "F1 Excess position error".
 inline constexpr auto kAlarmNames = detail::alarm_names(std::make_index_sequence<kAlarms.size()>());
+
+namespace detail {
+// "DRDY = 0, or OVER = 1 where EP (281) = 2": the outputs of an alarm by Table 4-12.
+using AlarmPage = Text<320>;
+consteval auto alarm_pages() {
+  std::array<AlarmPage, kAlarms.size()> pages{};
+  for (const AlarmPattern& row : kAlarmPatterns) {
+    AlarmPage& page = pages[row.alarm];
+    if (!page.view().empty()) page << "; ";
+    page << "DRDY = " << std::int64_t{row.drdy} << ", OVER = " << std::int64_t{row.over}
+         << ", BRK = " << std::int64_t{row.brk};
+    if (row.setting != 0) page << " where " << std::int64_t{row.setting} << " = " << std::int64_t{row.setting_value};
+  }
+  for (std::size_t i = 0; i < pages.size(); ++i) {
+    pages[i] << "; ";
+    if (kAlarms[i].word_bit == kNoBit) {
+      pages[i] << "no bit of the alarm word";
+    } else {
+      pages[i] << "bit " << std::int64_t{kAlarms[i].word_bit} << " of the alarm word";
+    }
+    if (pages[i].is_full()) throw "an alarm's page does not fit";
+  }
+  return pages;
+}
+inline constexpr auto kAlarmPages = alarm_pages();
+consteval auto alarm_table() {
+  auto rows = kAlarmNames;
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i].explanation = kAlarmPages[i].view();
+  return rows;
+}
+}  // namespace detail
+// Every alarm with its outputs, for the rules' pages.
+inline constexpr auto kAlarmTable = detail::alarm_table();
 
 }  // namespace servotrace::esb

@@ -5,8 +5,8 @@
 
 #include <array>
 
+#include "decoder/core/text.hpp"
 #include "decoder/profiles/nsk_esb/numbers.hpp"
-#include "decoder/profiles/text.hpp"
 
 namespace servotrace::esb {
 

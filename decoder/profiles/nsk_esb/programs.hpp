@@ -7,8 +7,8 @@
 #include <cstdint>
 
 #include "decoder/core/small_vector.hpp"
+#include "decoder/core/text.hpp"
 #include "decoder/profiles/nsk_esb/numbers.hpp"
-#include "decoder/profiles/text.hpp"
 
 namespace servotrace::esb {
 

@@ -6,6 +6,7 @@
 
 #include "decoder/findings/rule.hpp"
 #include "decoder/profiles/nsk_esb/rule_names.hpp"
+#include "decoder/profiles/profile_list.hpp"
 
 namespace servotrace::esb {
 
@@ -309,6 +310,7 @@ inline constexpr auto kRules = std::to_array<Rule>({
                     {ArgumentFormat::kFlags, kAlarmNames},
                     {ArgumentFormat::kName, kPhaseNames}}},
      .section = "ESB 4.4.1 (Table 4-12)",
+     .codes = {ArgumentFormat::kName, kAlarmTable},
      .why = "An alarm took the drive out of operation.",
      .fix = "Read the alarm word (800), remove the cause, then CLR or power up anew as the alarm asks.",
      .repeat = Repeat::kEach},
@@ -323,6 +325,7 @@ inline constexpr auto kRules = std::to_array<Rule>({
                     {ArgumentFormat::kFlags, kAlarmNames},
                     {ArgumentFormat::kName, kPhaseNames}}},
      .section = "ESB 4.4.1 (Table 4-12)",
+     .codes = {ArgumentFormat::kName, kAlarmTable},
      .why = "The drive stays ready, but something is wrong.",
      .fix = "Read the alarm word (800) and remove the cause.",
      .repeat = Repeat::kEach},
@@ -360,5 +363,11 @@ inline constexpr auto kRules = std::to_array<Rule>({
      .fix = "Run a home return.",
      .repeat = Repeat::kEach},
 });
+
+// The profile in the list of profiles.hpp.
+struct Profile {
+  static constexpr const auto& kRules = esb::kRules;
+  static const DriveProfile& row();
+};
 
 }  // namespace servotrace::esb

@@ -123,6 +123,8 @@ void Session::summarise(NodeSummary& summary, std::vector<Statistic>& statistics
   append_statistic(statistics, "RUN to BUSY", node(), start_to_busy_);
 }
 
+const DriveProfile& Profile::row() { return kProfile; }
+
 std::unique_ptr<DriveSession> make_session(const Settings& settings, const NodeRef& node, OwnerId owner,
                                            bool decode_only) {
   return std::make_unique<Session>(settings, node, owner, decode_only);

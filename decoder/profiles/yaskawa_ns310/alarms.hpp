@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "decoder/core/layout.hpp"
+#include "decoder/core/text.hpp"
 
 namespace servotrace::ns310 {
 
@@ -155,7 +156,27 @@ consteval auto alarm_codes() {
   for (std::size_t i = 0; i < kAlarms.size(); ++i) names[i + 1] = {kAlarms[i].code, kAlarms[i].name, kAlarms[i].sgdh};
   return names;
 }
+using AlarmPage = Text<640>;
+consteval auto alarm_pages() {
+  std::array<AlarmPage, kAlarms.size()> pages{};
+  for (std::size_t i = 0; i < pages.size(); ++i) {
+    const Alarm& alarm = kAlarms[i];
+    pages[i] << kIndicatorNames[static_cast<std::size_t>(alarm.indicator)] << "; SGDH: " << alarm.sgdh
+             << "; causes: " << alarm.causes << "; remedies: " << alarm.remedies;
+    if (pages[i].is_full()) throw "an alarm's page does not fit";
+  }
+  return pages;
+}
+inline constexpr auto kAlarmPages = alarm_pages();
+consteval auto alarm_table() {
+  std::array<ValueName, kAlarms.size()> rows{};
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = {kAlarms[i].code, kAlarms[i].name, kAlarmPages[i].view()};
+  return rows;
+}
 }  // namespace detail
+
+// Every alarm with indicator, SGDH alarms, causes and remedies, for the rule's page.
+inline constexpr auto kAlarmTable = detail::alarm_table();
 
 // The values of the field alarm_code.
 inline constexpr auto kAlarmCodes = detail::alarm_codes();

@@ -8,7 +8,7 @@
 
 #include "decoder/core/layout_check.hpp"
 #include "decoder/core/slot.hpp"
-#include "decoder/profiles/text.hpp"
+#include "decoder/core/text.hpp"
 #include "decoder/profiles/yaskawa_ns310/codes.hpp"
 
 namespace servotrace::ns310 {

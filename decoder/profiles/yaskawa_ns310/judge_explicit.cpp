@@ -296,7 +296,8 @@ void Session::learn_block(const Context& context, const ExplicitExchange& exchan
   add(context, kBlockListing, "ns310", 0, text_.view());
 }
 
-// A Set of 26h/2 starts the chain that 26h/1 names (B.8).
+// A Set of 26h/2 starts the chain that 26h/1 names (B.8). YS104 and YS301 are of the bit Start_Block: what 5.3.3 says
+// of the servo, it says of the command assembly, and a block 0 is outside the range of 26h/1 (DN403).
 void Session::judge_sequencer_start(const Context& context, const ExplicitExchange& exchange) {
   if (exchange.attribute != 2 || exchange.request_data.empty() || value_of(exchange.request_data) == 0) return;
   const ByteRange where = exchange.request.in_frame;

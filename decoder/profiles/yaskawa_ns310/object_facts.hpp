@@ -6,8 +6,8 @@
 
 #include <array>
 
+#include "decoder/core/text.hpp"
 #include "decoder/devicenet/object_layouts.hpp"
-#include "decoder/profiles/text.hpp"
 
 namespace servotrace::ns310 {
 

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "decoder/findings/rule.hpp"
+#include "decoder/profiles/profile_list.hpp"
 #include "decoder/profiles/yaskawa_ns310/alarms.hpp"
 #include "decoder/profiles/yaskawa_ns310/codes.hpp"
 #include "decoder/profiles/yaskawa_ns310/rule_names.hpp"
@@ -345,6 +346,7 @@ inline constexpr auto kRules = std::to_array<Rule>({
                     {ArgumentFormat::kName, kAlarmSgdh},
                     {ArgumentFormat::kName, kAlarmAdvice}}},
      .section = "SIE-C718-7 C.1, 9",
+     .codes = {ArgumentFormat::kHex2Name, kAlarmTable},
      .why = "NS310 or SGDH have detected a fault; every operation is disabled until it is cleared.",
      .fix = "Remove the cause, then clear the alarm (command code 1Eh, started with Start Trajectory).",
      .repeat = Repeat::kEach},
@@ -393,5 +395,11 @@ inline constexpr auto kRules = std::to_array<Rule>({
      .fix = "Read the fault code (26h, attribute 5) and correct the block that ran.",
      .repeat = Repeat::kEach},
 });
+
+// The profile in the list of profiles.hpp.
+struct Profile {
+  static constexpr const auto& kRules = ns310::kRules;
+  static const DriveProfile& row();
+};
 
 }  // namespace servotrace::ns310

@@ -116,6 +116,8 @@ void Session::summarise(NodeSummary& summary, std::vector<Statistic>& statistics
   append_statistic(statistics, "start echo", node(), start_echo_);
 }
 
+const DriveProfile& Profile::row() { return kProfile; }
+
 std::unique_ptr<DriveSession> make_session(const Settings& settings, const NodeRef& node, OwnerId owner,
                                            bool decode_only) {
   return std::make_unique<Session>(settings, node, owner, decode_only);

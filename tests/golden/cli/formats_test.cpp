@@ -250,6 +250,15 @@ TEST_F(Formats, DecodeShowsEveryField) {
   EXPECT_EQ(std::count(brief.out.begin(), brief.out.end(), '\n'), 1);
 }
 
+// ESB 5.3.1: a channel that is edited, line by line, in the manual's notation; read out again, the same.
+TEST_F(Formats, DecodeOfAProgramEditPrintsTheProgram) {
+  program.simulate("nk203_silent", "edit");
+  program.write("servotrace.toml", "[[devicenet.node]]\nmac_id = 9\nprofile = \"nsk-esb\"\n");
+  const Outcome text = program.run({"decode", "edit.pcapng", "--config", "servotrace.toml"});
+  EXPECT_EQ(text.status, 0) << text.err;
+  EXPECT_THAT(text.out, HasSubstr("IR/EX100/4&, CV1.0000, CA1.00]\n")) << "611 with 660 to 663";
+}
+
 TEST_F(Formats, InfoTellsBusesAndTimes) {
   const Outcome text = program.run({"info", "clean.pcapng"});
   EXPECT_EQ(text.status, 0);
@@ -274,6 +283,10 @@ TEST_F(Formats, RulesAndExplain) {
   }
   EXPECT_THAT(program.run({"explain", "malformed-record"}).out, StartsWith("CP104 malformed-record\n"));
   EXPECT_THAT(program.run({"explain", "malformd-record"}).err, HasSubstr("(did you mean 'CP104', malformed-record?)"));
+  EXPECT_THAT(program.run({"explain", "YS901"}).out,
+              HasSubstr("\nCodes\n    01h (Power Element Error)\n        MS flashes red; SGDH: A.03 main circuit"));
+  EXPECT_THAT(program.run({"explain", "RX902"}).out, HasSubstr("\n    83.0 (RTEX continuous communication error 1)\n"));
+  EXPECT_THAT(program.run({"explain", "NK901"}).out, HasSubstr("\n    F1 Excess position error\n        DRDY = 0, "));
   EXPECT_THAT(program.run({"rules", "--format", "markdown"}).out, HasSubstr("\n| CP101 | warning | capture | "));
 }
 

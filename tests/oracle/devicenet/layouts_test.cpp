@@ -111,11 +111,15 @@ TEST(UnconnectedMessages, OpenAndClose) {
 
 TEST(UnconnectedMessages, HeartbeatAndShutdown) {
   // Heartbeat: identity instance 1, operational, flags, consistency value. Shutdown: class, instance, code.
-  const auto heartbeat = hex("3F 4D 01 00 03 80 34 12");
+  const auto heartbeat = hex("3F 4D 01 00 03 85 34 12");
   EXPECT_EQ(read(slot(kHeartbeat, "service"), heartbeat), 0x4D);
   EXPECT_EQ(read(slot(kHeartbeat, "heartbeat_instance"), heartbeat), 1);
   EXPECT_EQ(read(slot(kHeartbeat, "device_state"), heartbeat), 3);
-  EXPECT_EQ(read(slot(kHeartbeat, "heartbeat_flags"), heartbeat), 0x80);
+  EXPECT_EQ(read(slot(kHeartbeat, "device_fault"), heartbeat), 1);
+  EXPECT_EQ(read(slot(kHeartbeat, "user_fault"), heartbeat), 0);
+  EXPECT_EQ(read(slot(kHeartbeat, "system_fault"), heartbeat), 1);
+  EXPECT_EQ(read(slot(kHeartbeat, "event"), heartbeat), 0);
+  EXPECT_EQ(read(slot(kHeartbeat, "heartbeat_reserved"), heartbeat), 8);
   EXPECT_EQ(read(slot(kHeartbeat, "consistency"), heartbeat), 0x1234);
   const auto shutdown = hex("3F 4E 03 00 01 00 02 01");
   EXPECT_EQ(read(slot(kShutdown, "service"), shutdown), 0x4E);

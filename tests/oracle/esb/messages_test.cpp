@@ -41,7 +41,8 @@ class Bus {
 TEST(EsbMessages, Section547WriteVg45) {
   Bus bus;
   const std::string text = bus.transact("02 00 00 C0 02 00 C2 01 00 00", "35 00 00 C0 02 00 C2 01 00 00");
-  expect_lines(bus.request(), {"PRM_SET_NO (Parameter number): 2 (VG)\n", "VG: 45\n", "Transaction: write VG45.0]\n"});
+  expect_lines(bus.request(),
+               {"PRM_SET_NO (Parameter number): 2 (VG)\n", "VG: 45.0\n", "Transaction: write VG45.0]\n"});
   expect_lines(text, {"Transaction: write VG45.0: successful]\n", "request in frame"});
 }
 
@@ -50,7 +51,7 @@ TEST(EsbMessages, Section547ReadPg400) {
   Bus bus;
   const std::string text = bus.transact("02 00 00 40 01 00 00 00 00 00", "35 00 00 C0 01 00 90 01 00 00");
   expect_lines(bus.request(), {"Transaction: read PG]\n"});
-  expect_lines(text, {"PG: 0.4\n", "Transaction: read PG: 0.400]\n"});
+  expect_lines(text, {"PG: 0.400\n", "Transaction: read PG: 0.400]\n"});
 }
 
 // 5.3.1: channel 5 gets AD/PL9000& with CV1.5000 and CA10.00; the edit prints the program.

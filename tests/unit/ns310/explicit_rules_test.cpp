@@ -149,6 +149,17 @@ TEST_F(Ns310Explicit, YS303AndYS304ByTheSequencer) {
   bench_.set(0x26, 1, 2, hex("01"));
   EXPECT_EQ(bench_.rules(), "YS303 YS304");
 }
+// YS104 and YS301 are of the bit Start_Block (5.3.1, 5.3.3): B.8 says neither that 26h/2 is ignored with the servo off
+// nor that a running chain refuses it.
+TEST_F(Ns310Explicit, NeitherYS104NorYS301ByTheSequencer) {
+  poll("40 00 20 21 00 00 00 00", "40 00 01 21 00 00 00 00", 2);  // servo off
+  set_block(1, "06 00 08 00 00 00");
+  bench_.set(0x26, 1, 1, hex("01"));
+  bench_.set(0x26, 1, 2, hex("01"));
+  poll(kIdle, kBlocksRun, 2);
+  bench_.set(0x26, 1, 2, hex("01"));
+  EXPECT_EQ(bench_.rules(), "");
+}
 TEST_F(Ns310Explicit, YS304TheSequencersBlockIsNotKnown) {
   ready();
   set_block(1, "09 01 40 1F 00 00");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A third drive takes one folder (invented_spindle) and one line: this program is built with profiles.hpp and that line
-// (tests/CMakeLists.txt), everything else is the decoder's own code.
+// (tests/CMakeLists.txt), everything else is the decoder's own code. One with rules: invented_gripper.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace servotrace {
 namespace {
 
 TEST(ThirdProfile, IsInTheList) {
-  EXPECT_EQ(kProfiles.size(), 3U);
+  EXPECT_EQ(profiles().size(), 3U);
   const std::vector<std::string_view> keys = profile_keys();
   EXPECT_EQ(keys, (std::vector<std::string_view>{"yaskawa-ns310", "nsk-esb", "invented-spindle", "generic"}));
   const std::vector<const Layout*> layouts = all_layouts();

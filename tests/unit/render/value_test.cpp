@@ -30,6 +30,11 @@ TEST(ValueText, ShowsBaseNameAndUnit) {
   EXPECT_EQ(value_text({.width = 8, .values = kNames}, 2), "2");
   EXPECT_EQ(value_text({.width = 16, .kind = Kind::kSigned, .unit = Unit::kPercent, .scale = {1, 10}}, -255),
             "-25.5 %");
+  // ESB 5.4.1: PG with three decimal places, VG with one; 10 ms a unit has none.
+  EXPECT_EQ(value_text({.width = 32, .scale = {1, 1000}}, 400), "0.400");
+  EXPECT_EQ(value_text({.width = 32, .scale = {1, 10}}, 450), "45.0");
+  EXPECT_EQ(value_text({.width = 32, .unit = Unit::kMillisecond, .scale = {10, 1}}, 3), "30 ms");
+  EXPECT_EQ(value_text({.width = 32, .scale = {1, 1000000000}}, 500000000), "0.5");
   EXPECT_EQ(value_text({.width = 64}, -1), "18446744073709551615");
   EXPECT_EQ(value_text({.width = 16, .kind = Kind::kSigned, .base = Base::kHex}, -2), "FFFEh");
 }
@@ -45,7 +50,7 @@ TEST(ViolationText, SaysWhy) {
   EXPECT_EQ(violation_text({.width = 1, .reserved = true}, 0), "");
   EXPECT_EQ(violation_text({.width = 4, .values = kNames, .closed = true}, 2), "is none of the listed values");
   EXPECT_EQ(violation_text({.width = 8, .range = {1, 10}}, 11), "must be 1 to 10");
-  EXPECT_EQ(violation_text({.width = 8, .scale = {1, 10}, .range = {1, 10}}, 11), "must be 0.1 to 1");
+  EXPECT_EQ(violation_text({.width = 8, .scale = {1, 10}, .range = {1, 10}}, 11), "must be 0.1 to 1.0");
 }
 
 TEST(TimeText, IsUtcWithNanoseconds) {

@@ -2,6 +2,7 @@
 #include "decoder/core/slot.hpp"
 #include "decoder/profiles/drive_base.hpp"
 #include "tests/unit/profiles/invented_spindle/profile.hpp"
+#include "tests/unit/profiles/invented_spindle/rules.hpp"
 
 namespace servotrace::spindle {
 namespace {
@@ -27,6 +28,8 @@ class Session final : public DriveBase {
 };
 
 }  // namespace
+
+const DriveProfile& Profile::row() { return kProfile; }
 
 std::unique_ptr<DriveSession> make_session(const Settings& settings, const NodeRef& node, OwnerId owner,
                                            bool decode_only) {
