@@ -3,9 +3,16 @@
 
 #include <fmt/format.h>
 
+#include "decoder/core/slot.hpp"
 #include "decoder/render/value.hpp"
+#include "decoder/rtex/layouts.hpp"
 
 namespace servotrace::replay {
+
+bool Answered::operator()(const Dissection& dissection, const Segment& segment) {
+  if (segment.layout == &rtex::kResponse) answered_ = read(slot(rtex::kResponse, "cr"), dissection.bytes(segment)) != 0;
+  return answered_ || segment.direction != Direction::kResponse;
+}
 
 std::size_t SeriesList::number(const Segment& segment, const Field& field) {
   const NodeRef& node = segment.node;

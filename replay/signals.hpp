@@ -19,14 +19,26 @@ struct Series {
   NodeRef node;
 };
 
+// The drives of an RTEX record that have answered. Until a drive does, its block is all zero with C/R = 0 (SX-DSV02203
+// 4-3-2): no values and no states.
+class Answered {
+ public:
+  // False where `segment` is a part of a block nobody has filled; segments come in the order of the dissection.
+  bool operator()(const Dissection& dissection, const Segment& segment);
+
+ private:
+  bool answered_ = true;
+};
+
 // Finds the series of a dissection; a series keeps its number through the capture.
 class SeriesList {
  public:
   // visit(series number, field, raw value) for every signal (and state, where `states`) of the frame.
   template <class Visit>
   void for_each(const Dissection& dissection, bool states, Visit visit) {
+    Answered answered;
     for (const Segment& segment : dissection.segments) {
-      if (segment.node.mac_id == kNoMacId) continue;
+      if (!answered(dissection, segment) || segment.node.mac_id == kNoMacId) continue;
       const Bytes bytes = dissection.bytes(segment);
       for (const Field& field : segment.layout->fields) {
         if (field.role == Role::kPlain || (field.role == Role::kState && !states)) continue;

@@ -231,7 +231,9 @@ bool Engine::push_blocks(const Context& context, const RecordPlace& place, const
 void Engine::decode(const Context& context, const Node& node, Bytes block, std::uint32_t block_at, BlockSize size,
                     bool response) {
   NodeRef ref = node.ref;
-  if (!node.mac_known) ref.mac_id = static_cast<std::int16_t>(read(slot(kCommand, "mac_id"), block));
+  // A response without C/R is no drive's answer yet (4-3-2): its MAC-ID says nothing, the command of the place does.
+  const bool named = !response || read(slot(kResponse, "cr"), block) != 0 || ref.mac_id == kNoMacId;
+  if (!node.mac_known && named) ref.mac_id = static_cast<std::int16_t>(read(slot(kCommand, "mac_id"), block));
   decode_block(response ? layouts_of_response(block, size, node.format) : layouts_of_command(block, size, node.format),
                block_at, ref, response ? Direction::kResponse : Direction::kCommand, *context.dissection);
 }
