@@ -14,7 +14,8 @@
 namespace servotrace::report {
 namespace {
 
-constexpr std::size_t kMaxValue = 200;  // characters of a value
+constexpr std::size_t kMaxValue = 200;       // characters of a value
+constexpr std::ptrdiff_t kKeptFirst = 1000;  // transactions never left out
 
 std::uint64_t key_of(const NodeRef& node) {
   return static_cast<std::uint64_t>(node.bus.kind) << 60U | std::uint64_t{node.bus.interface_id} << 24U |
@@ -72,9 +73,11 @@ void AccessLog::note(Access access) {
     access.before = known;
     if (!access.refused) known = access.value;
   }
-  if (accesses_.size() >= kMaxAccesses) {
-    ++dropped_;
-    return;
+  if (accesses_.size() >= kMaxAccesses) {  // the first ones tell the settings, the latest what came before a fault
+    const auto first = accesses_.begin() + kKeptFirst;
+    const auto last = first + (static_cast<std::ptrdiff_t>(kMaxAccesses) - kKeptFirst) / 2;
+    dropped_ += static_cast<std::uint64_t>(last - first);
+    accesses_.erase(first, last);
   }
   accesses_.push_back(std::move(access));
 }

@@ -13,10 +13,6 @@
 namespace servotrace::report {
 namespace {
 
-std::string plural(std::uint64_t count, std::string_view word) {
-  return fmt::format("{} {}{}", count, word, count == 1 ? "" : "s");
-}
-
 class Judge {
  public:
   Judge(Model& model, const Settings& settings, const replay::BusNames& buses)
@@ -55,6 +51,7 @@ class Judge {
                                     at_time(model_, finding.time_ns), finding.frame, fault_text(model_, first));
     if (first.code_frame != 0)
       say(fmt::format("The code was read out of the drive afterwards, in frame {}.", first.code_frame));
+    alarm_state(finding);
     const auto cause =
         std::find_if(first.causes.begin(), first.causes.end(), [](const Candidate& entry) { return entry.supported; });
     if (cause != first.causes.end()) {
@@ -75,6 +72,21 @@ class Judge {
     if (const std::size_t others = model_.faults.size() - 1 - first.followers.size() + model_.more_faults; others != 0)
       say(fmt::format("{} described below.",
                       others == 1 ? "1 more fault is" : fmt::format("{} more faults are", others)));
+  }
+
+  // A fault that shows in a message only later (a code that had to be asked for) may have shown as a state before.
+  void alarm_state(const Finding& fault) {
+    const Event* risen = nullptr;
+    for (const StateTrack& track : model_.tracks) {
+      if (!(track.node.bus == fault.node.bus) || track.node.mac_id != fault.node.mac_id || track.field->key != "alarm")
+        continue;
+      for (const Event& event : track.changes) {
+        if (event.frame <= fault.frame) risen = event.after != 0 ? &event : nullptr;
+      }
+    }
+    if (risen == nullptr || risen->frame == fault.frame) return;
+    say(fmt::format("Its state {} had risen {} before, in frame {}.", risen->field->label,
+                    duration_text(elapsed_ns(risen->time_ns, fault.time_ns)), risen->frame));
   }
 
   // The sentence that proves a cause; empty where the fault proves it itself.
@@ -139,15 +151,15 @@ void list_limits(Model& model, const replay::BusNames& buses) {
   }
   if (lost != 0)
     list.push_back(
-        fmt::format("Records were lost in {} places while recording; across them nothing was compared and nothing is "
+        fmt::format("Records were lost in {} while recording; across them nothing was compared and nothing is "
                     "blamed on the bus.",
-                    lost));
+                    plural(lost, "place")));
   if (cut != 0)
-    list.push_back(
-        fmt::format("{} records were captured only in part; what their missing bytes said is unknown.", cut));
+    list.push_back(fmt::format("{} captured only in part; what the missing bytes said is unknown.",
+                               cut == 1 ? "1 record was" : fmt::format("{} records were", cut)));
   if (model.capture.untracked_frames != 0)
-    list.push_back(fmt::format("{} frames of interfaces or buses above the limit were not looked at.",
-                               model.capture.untracked_frames));
+    list.push_back(fmt::format("Not looked at, of interfaces or buses above the limit: {}.",
+                               plural(model.capture.untracked_frames, "frame")));
   if (!model.capture.has_time)
     list.push_back("The capture has no timestamps: nothing that depends on time could be judged.");
   for (const BusSummary& bus : model.summary.buses) {
@@ -157,8 +169,8 @@ void list_limits(Model& model, const replay::BusNames& buses) {
           "{} was sampled: the recorder did not take every cycle, and rules that need every cycle stayed silent.",
           name));
     if (bus.protocol == Protocol::kNone)
-      list.push_back(
-          fmt::format("{} is CAN without evidence of DeviceNet ({} frames): it was not checked.", name, bus.frames));
+      list.push_back(fmt::format("{} is CAN without evidence of DeviceNet ({}): it was not checked.", name,
+                                 plural(bus.frames, "frame")));
     for (const NodeSummary& node : bus.nodes) {
       std::string assumed;
       for (const Fact& fact : node.facts) {
@@ -179,6 +191,10 @@ void list_limits(Model& model, const replay::BusNames& buses) {
 }
 
 }  // namespace
+
+std::string plural(std::uint64_t count, std::string_view word) {
+  return fmt::format("{} {}{}", count, word, count == 1 ? "" : "s");
+}
 
 std::string capitalised(std::string text) {
   if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');

@@ -28,6 +28,8 @@ std::vector<Advice> advice_for(const Finding& finding, std::int64_t code, std::i
 // What failed, with the code read afterwards: "alarm 24.0 position deviation excess". No full stop.
 std::string fault_text(const Model& model, const Fault& fault);
 std::string capitalised(std::string text);
+// "1 finding", "2 findings".
+std::string plural(std::uint64_t count, std::string_view word);
 // Fills the verdict and what the capture cannot show; faults must be found.
 void judge(Model& model, const Settings& settings, const replay::BusNames& buses);
 

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "replay/report/build.hpp"
 
+#include <array>
+
 #include "replay/report/analysis.hpp"
 #include "replay/report/collector.hpp"
 
 namespace servotrace::report {
 namespace {
 
-constexpr std::size_t kMaxEvidence = 20'000;  // sentences kept
+constexpr std::size_t kMaxEvidence = 20'000;  // frames kept
+constexpr std::size_t kFullFindings = 3;      // of a rule, whose frames are kept field by field
 
 class Gather : public replay::FrameVisitor {
  public:
@@ -20,6 +23,22 @@ class Gather : public replay::FrameVisitor {
  private:
   Collector& collector_;
 };
+
+// The frames of all findings in words, those of the first findings of a rule in full.
+std::vector<WantedFrame> wanted_frames(const Model& model) {
+  std::vector<WantedFrame> wanted;
+  std::array<std::size_t, kRuleCount> seen = {};
+  for (const Finding& finding : model.findings) {
+    if (wanted.size() >= kMaxEvidence) break;
+    const bool in_full = seen[static_cast<std::size_t>(finding.rule)]++ < kFullFindings;
+    for (const std::uint64_t related : finding.related) {
+      if (related != 0 && related != finding.frame)
+        wanted.push_back({.frame = related, .node = finding.node, .in_full = in_full, .where = {}});
+    }
+    wanted.push_back({.frame = finding.frame, .node = finding.node, .in_full = in_full, .where = finding.where});
+  }
+  return wanted;
+}
 
 }  // namespace
 
@@ -55,15 +74,7 @@ Result<Built> build_model(const replay::CaptureInput& input, const Settings& set
     watches.push_back({finding.frame, finding.time_ns, finding.node, fault.window_begin_ns, fault.window_end_ns,
                        is_alarm_without_code(finding)});
   }
-  std::set<std::uint64_t> evidence;
-  for (const Finding& finding : model.findings) {
-    if (evidence.size() >= kMaxEvidence) break;
-    evidence.insert(finding.frame);
-    for (const std::uint64_t related : finding.related) {
-      if (related != 0) evidence.insert(related);
-    }
-  }
-  Collector collector(settings, watches, std::move(evidence));
+  Collector collector(settings, watches, wanted_frames(model));
   Gather gather(collector);
   static_cast<void>(replay::run_input(input, settings, {.visitor = &gather}));
   collector.finish(model);

@@ -285,8 +285,8 @@ void find_faults(Model& model) {
       before = std::max(before, elapsed_ns(model.findings[*cause.finding].time_ns, finding.time_ns) * 5 / 4);
     }
     before = std::min(before, 5 * kSecondNs);
-    fault.window_begin_ns = finding.time_ns - before;
-    fault.window_end_ns = finding.time_ns + before / 3;
+    fault.window_begin_ns = std::max(finding.time_ns - before, model.capture.first_ns);
+    fault.window_end_ns = std::min(finding.time_ns + before / 3, model.capture.last_ns);
     model.faults.push_back(std::move(fault));
   }
 }

@@ -7,8 +7,8 @@
 
 #include "decoder/core/slot.hpp"
 #include "decoder/devicenet/derived.hpp"
-#include "decoder/render/sentence.hpp"
 #include "decoder/render/value.hpp"
+#include "replay/signals.hpp"
 
 namespace servotrace::report {
 namespace {
@@ -18,6 +18,20 @@ constexpr std::size_t kCloseUpBins = 2048;
 constexpr std::size_t kMaxNodes = 512;
 constexpr std::size_t kScaleSamples = 64;  // intervals that choose the histogram's scale
 constexpr std::size_t kHistogramBins = 60;
+
+constexpr DurationNs kMessagesBefore = 2 * kSecondNs;  // before the window of a fault its messages are kept
+
+constexpr std::string_view kCommandPosition = "command_position";
+constexpr std::string_view kActualPosition = "actual_position";
+constexpr DurationNs kFreshNs = 5 * kMillisecondNs;  // a command position older than this is no command of now
+// No field of a message: what the axis lags behind, or a jump that waits for it.
+constexpr Field kDistance = {.key = "command_minus_actual",
+                             .label = "Command minus actual",
+                             .width = 32,
+                             .kind = Kind::kSigned,
+                             .role = Role::kSignal,
+                             .unit = Unit::kCommandUnit,
+                             .section = "SX-DSV02203 7-1-1"};
 
 std::uint64_t key_of(const NodeRef& node) {
   return static_cast<std::uint64_t>(node.bus.kind) << 60U | std::uint64_t{node.bus.interface_id} << 24U |
@@ -48,8 +62,8 @@ bool is_series(const Field& field) {
 
 }  // namespace
 
-Collector::Collector(const Settings& settings, const std::vector<Watch>& watches, std::set<std::uint64_t> evidence)
-    : settings_(settings), evidence_wanted_(std::move(evidence)) {
+Collector::Collector(const Settings& settings, const std::vector<Watch>& watches, std::vector<WantedFrame> evidence)
+    : settings_(settings), evidence_(std::move(evidence)) {
   for (const Watch& watch : watches) {
     close_ups_.emplace_back();
     close_ups_.back().watch = watch;
@@ -68,51 +82,94 @@ std::size_t Collector::node_index(const NodeRef& node) {
   return nodes_.size() - 1;
 }
 
-void Collector::add_field(Node& node, std::size_t index, const RawFrame& frame, const Segment& segment,
-                          const Field& field, Bytes bytes) {
-  const std::int64_t value = read(slot_of(field), bytes);
-  if (field.role == Role::kState) {
-    const auto [entry, is_new] = node.tracks.try_emplace(&field, tracks_.size());
-    if (is_new) {
+// What is kept of a layout at a node; made at its first message.
+const Collector::Place& Collector::place_of(Node& node, const RawFrame& frame, const Layout& layout, Bytes bytes) {
+  for (const Place& place : node.places) {
+    if (place.layout == &layout) return place;
+  }
+  Place& place = node.places.emplace_back();
+  place.layout = &layout;
+  for (const Field& field : layout.fields) {
+    if (field.role == Role::kPlain || !is_series(field)) continue;
+    Kept kept{.field = &field, .slot = slot_of(field), .index = 0, .is_state = field.role == Role::kState};
+    auto& known = kept.is_state ? node.tracks : node.signals;
+    const auto [entry, is_new] = known.try_emplace(&field, kept.is_state ? tracks_.size() : signals_.size());
+    kept.index = entry->second;
+    if (is_new && kept.is_state) {
+      const std::int64_t value = read(kept.slot, bytes);
       tracks_.push_back({.node = node.node,
-                         .layout = segment.layout,
+                         .layout = &layout,
                          .field = &field,
                          .first_ns = frame.time_ns,
                          .first_value = value,
                          .value = value});
-      return;
+    } else if (is_new) {
+      signals_.push_back(
+          {node.node, filter_name(layout, field), std::string(field.label), &field, Series(kSeriesBins)});
     }
-    StateTrack& track = tracks_[entry->second];
-    if (track.value == value) return;
-    if (track.changes.size() < kMaxChanges) {
-      track.changes.push_back({frame.time_ns, frame.number, node.node, segment.layout, &field, track.value, value});
-    } else {
-      ++track.dropped;
-    }
-    track.value = value;
-    return;
+    place.fields.push_back(kept);
   }
-  const auto [entry, is_new] = node.signals.try_emplace(&field, signals_.size());
-  if (is_new)
-    signals_.push_back(
-        {node.node, filter_name(*segment.layout, field), std::string(field.label), &field, Series(kSeriesBins)});
-  signals_[entry->second].series.add(frame.time_ns, value);
-  for (CloseUp& close_up : close_ups_) {
-    if (frame.time_ns < close_up.watch.begin_ns || frame.time_ns > close_up.watch.end_ns) continue;
+  return place;
+}
+
+void Collector::add_segment(Node& node, std::size_t index, const RawFrame& frame, const Segment& segment, Bytes bytes) {
+  const Place& place = place_of(node, frame, *segment.layout, bytes);
+  for (const Kept& kept : place.fields) {
+    const std::int64_t value = read(kept.slot, bytes);
+    if (!kept.is_state) {
+      add_signal(node, index, frame, *segment.layout, kept, value);
+      continue;
+    }
+    StateTrack& track = tracks_[kept.index];
+    if (track.value == value) continue;
+    track.add({.time_ns = frame.time_ns,
+               .frame = frame.number,
+               .node = node.node,
+               .layout = segment.layout,
+               .field = kept.field,
+               .before = track.value,
+               .after = value,
+               .close_up = !open_.empty()});
+  }
+}
+
+void Collector::add_signal(Node& node, std::size_t index, const RawFrame& frame, const Layout& layout, const Kept& kept,
+                           std::int64_t value) {
+  signals_[kept.index].series.add(frame.time_ns, value);
+  if (open_.empty()) return;
+  add_close_up(frame, node, index, layout, *kept.field, value);
+  if (kept.field->key == kCommandPosition) {
+    node.commanded = value;
+    node.commanded_ns = frame.time_ns;
+    node.has_commanded = true;
+  } else if (kept.field->key == kActualPosition && node.has_commanded &&
+             elapsed_ns(node.commanded_ns, frame.time_ns) < kFreshNs) {
+    // Positions wrap at 32 bits (SX-DSV02203 7-1-4-2).
+    const auto distance =
+        static_cast<std::int32_t>(static_cast<std::uint32_t>(node.commanded) - static_cast<std::uint32_t>(value));
+    add_close_up(frame, node, index, layout, kDistance, distance);
+  }
+}
+
+void Collector::add_close_up(const RawFrame& frame, const Node& node, std::size_t index, const Layout& layout,
+                             const Field& field, std::int64_t value) {
+  for (CloseUp* const entry : open_) {
+    CloseUp& close_up = *entry;
     if (close_up.watch.node.mac_id != kNoMacId && key_of(close_up.watch.node) != key_of(node.node)) continue;
     const auto [place, fresh] = close_up.index.try_emplace({index, &field}, close_up.signals.size());
     if (fresh) {
       close_up.signals.push_back(
-          {node.node, filter_name(*segment.layout, field), std::string(field.label), &field, Series(kCloseUpBins)});
+          {node.node, filter_name(layout, field), std::string(field.label), &field, Series(kCloseUpBins)});
     }
     close_up.signals[place->second].series.add(frame.time_ns, value);
   }
 }
 
 void Collector::add_snapshots(const RawFrame& frame, const Dissection& dissection) {
-  // Only messages of watched nodes are kept, and only until their fault.
+  // Only messages of watched nodes are kept, a while before their fault and until it.
   for (CloseUp& close_up : close_ups_) {
     if (close_up.taken || close_up.watch.node.mac_id == kNoMacId) continue;
+    if (elapsed_ns(frame.time_ns, close_up.watch.begin_ns) > kMessagesBefore) continue;
     const std::uint64_t wanted = key_of(close_up.watch.node);
     const std::size_t index = node_index(close_up.watch.node);
     if (index >= kMaxNodes) continue;
@@ -281,21 +338,18 @@ void Collector::add_load(const RawFrame& frame, const Dissection& dissection) {
 }
 
 void Collector::add(const RawFrame& frame, const Dissection& dissection) {
-  if (evidence_wanted_.count(frame.number) != 0) evidence_[frame.number] = sentence(dissection, &settings_);
+  evidence_.add(frame, dissection, settings_);
   if (dissection.protocol == Protocol::kNone) return;
+  open_.clear();
+  for (CloseUp& close_up : close_ups_) {
+    if (frame.time_ns >= close_up.watch.begin_ns && frame.time_ns <= close_up.watch.end_ns) open_.push_back(&close_up);
+  }
+  replay::Answered answered;
   for (const Segment& segment : dissection.segments) {
-    if (segment.node.mac_id == kNoMacId || segment.direction == Direction::kNone) continue;
-    std::size_t index = kMaxNodes;
-    Bytes bytes;
-    for (const Field& field : segment.layout->fields) {
-      if (field.role == Role::kPlain || !is_series(field)) continue;
-      if (index == kMaxNodes) {
-        index = node_index(segment.node);
-        if (index == kMaxNodes) break;
-        bytes = dissection.bytes(segment);
-      }
-      add_field(nodes_[index], index, frame, segment, field, bytes);
-    }
+    if (!answered(dissection, segment) || segment.node.mac_id == kNoMacId || segment.direction == Direction::kNone)
+      continue;
+    const std::size_t index = node_index(segment.node);
+    if (index != kMaxNodes) add_segment(nodes_[index], index, frame, segment, dissection.bytes(segment));
   }
   add_snapshots(frame, dissection);
   for (CloseUp& close_up : close_ups_) {
@@ -314,7 +368,7 @@ void Collector::add(const RawFrame& frame, const Dissection& dissection) {
 void Collector::finish(Model& model) {
   model.tracks = std::move(tracks_);
   model.signals = std::move(signals_);
-  model.evidence = std::move(evidence_);
+  model.evidence = evidence_.take();
   for (std::size_t i = 0; i < close_ups_.size() && i < model.faults.size(); ++i) {
     model.faults[i].signals = std::move(close_ups_[i].signals);
     model.faults[i].messages = std::move(close_ups_[i].messages);

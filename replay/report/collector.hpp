@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <map>
-#include <set>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -30,8 +29,7 @@ struct Watch {
 
 class Collector {
  public:
-  // `evidence`: frames whose sentence is wanted.
-  Collector(const Settings& settings, const std::vector<Watch>& watches, std::set<std::uint64_t> evidence);
+  Collector(const Settings& settings, const std::vector<Watch>& watches, std::vector<WantedFrame> evidence);
 
   void add(const RawFrame& frame, const Dissection& dissection);
   // Moves what was gathered into the model; faults' parts into the fault of the same index as its watch.
@@ -43,10 +41,26 @@ class Collector {
     std::vector<std::pair<const Layout*, std::vector<std::uint8_t>>> parts;
     bool same_bytes(const Snapshot& other) const { return parts == other.parts; }
   };
+  // A field of a layout, and where its history is kept.
+  struct Kept {
+    const Field* field = nullptr;
+    Slot slot;
+    std::size_t index = 0;  // into tracks_ or signals_
+    bool is_state = false;
+  };
+  struct Place {
+    const Layout* layout = nullptr;
+    std::vector<Kept> fields;
+  };
   struct Node {
     NodeRef node;
     std::map<const Field*, std::size_t> tracks;
     std::map<const Field*, std::size_t> signals;
+    std::vector<Place> places;  // by layout, in the order of their first message
+    // The command position last sent, for its distance from the actual one.
+    std::int64_t commanded = 0;
+    TimeNs commanded_ns = 0;
+    bool has_commanded = false;
     // By direction: the latest message, the last one that differed from it, and one being put together.
     std::array<Snapshot, 3> latest;
     std::array<Snapshot, 3> before;
@@ -76,8 +90,12 @@ class Collector {
   };
 
   std::size_t node_index(const NodeRef& node);
-  void add_field(Node& node, std::size_t index, const RawFrame& frame, const Segment& segment, const Field& field,
-                 Bytes bytes);
+  const Place& place_of(Node& node, const RawFrame& frame, const Layout& layout, Bytes bytes);
+  void add_segment(Node& node, std::size_t index, const RawFrame& frame, const Segment& segment, Bytes bytes);
+  void add_signal(Node& node, std::size_t index, const RawFrame& frame, const Layout& layout, const Kept& kept,
+                  std::int64_t value);
+  void add_close_up(const RawFrame& frame, const Node& node, std::size_t index, const Layout& layout,
+                    const Field& field, std::int64_t value);
   void add_snapshots(const RawFrame& frame, const Dissection& dissection);
   void add_cycle(const RawFrame& frame, const Dissection& dissection);
   void add_times(const Dissection& dissection);
@@ -89,16 +107,16 @@ class Collector {
   static void scale(Cycle& cycle);
 
   const Settings& settings_;
-  std::set<std::uint64_t> evidence_wanted_;
   std::vector<Node> nodes_;
   std::unordered_map<std::uint64_t, std::size_t> node_by_key_;
   std::vector<StateTrack> tracks_;
   std::vector<Signal> signals_;
   std::vector<CloseUp> close_ups_;
+  std::vector<CloseUp*> open_;  // those whose window holds the present frame
   std::vector<Cycle> cycles_;
   std::vector<Load> loads_;
   AccessLog accesses_;
-  std::map<std::uint64_t, std::string> evidence_;
+  FrameLog evidence_;
 };
 
 }  // namespace servotrace::report

@@ -17,7 +17,7 @@ namespace servotrace::report {
 namespace {
 
 std::string capture_facts(const Model& model) {
-  std::string text = fmt::format("{} frames, {} of them on known buses; {}", model.capture.frames,
+  std::string text = fmt::format("{}, {} of them on known buses; {}", plural(model.capture.frames, "frame"),
                                  model.capture.checked_frames, model.capture.format);
   if (model.capture.has_time)
     text += fmt::format("; {} to {}", time_text(model.capture.first_ns), time_text(model.capture.last_ns));
@@ -85,11 +85,11 @@ std::string Page::node_name(const NodeRef& node) const {
 
 std::string Page::name_of_finding(const Finding& finding) const { return who(finding, settings_, buses_); }
 
-void Page::evidence(std::uint64_t frame) {
-  const auto found = model_.evidence.find(frame);
+void Page::evidence(std::uint64_t frame, const NodeRef& node) {
+  const auto found = model_.evidence.find(frame_key(frame, node));
   if (found == model_.evidence.end()) return;
   add("<p class=\"evidence\"><b>{}</b> {}</p>\n", frame,
-      e(found->second.empty() ? "(nothing recognised)" : found->second));
+      e(found->second.sentence.empty() ? "(nothing recognised)" : found->second.sentence));
 }
 
 std::string Page::head() {

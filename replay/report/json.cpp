@@ -315,12 +315,14 @@ class Writer {
     for (const StateTrack& track : model_.tracks) {
       json_.begin_object().member("field", filter_name(*track.layout, *track.field));
       node("node", track.node);
-      json_.member("first", track.first_value).member("dropped", track.dropped);
+      json_.member("first", track.first_value).member("total", track.total);
       json_.key("changes").begin_array();
       for (const Event& event : track.changes) {
         json_.begin_object().member("frame", event.frame);
         time("time", event.time_ns);
-        json_.member("value", event.after).end_object();
+        json_.member("value", event.after);
+        if (event.joined != 0) json_.member("joined", std::uint64_t{event.joined});
+        json_.end_object();
       }
       json_.end_array().end_object();
     }

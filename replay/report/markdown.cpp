@@ -35,8 +35,8 @@ class Writer {
       : out_(out), model_(built.model), buses_(built.buses), settings_(settings) {}
 
   void write() {
-    add("# servotrace report: {}\n\n{} frames, {} of them on known buses ({}).\n\n## Verdict\n\n**{}**\n",
-        escaped(model_.capture.file), model_.capture.frames, model_.capture.checked_frames,
+    add("# servotrace report: {}\n\n{}, {} of them on known buses ({}).\n\n## Verdict\n\n**{}**\n",
+        escaped(model_.capture.file), plural(model_.capture.frames, "frame"), model_.capture.checked_frames,
         escaped(model_.capture.format), escaped(model_.verdict.headline));
     for (const std::string& sentence : model_.verdict.sentences) add("\n{}\n", escaped(sentence));
     if (model_.verdict.kind != VerdictKind::kNothingChecked) {

@@ -15,6 +15,7 @@
 #include "decoder/pipeline/dissection.hpp"
 #include "decoder/pipeline/summary.hpp"
 #include "replay/report/accesses.hpp"
+#include "replay/report/frame_log.hpp"
 #include "replay/report/series.hpp"
 
 namespace servotrace::report {
@@ -28,9 +29,12 @@ struct Event {
   const Field* field = nullptr;
   std::int64_t before = 0;
   std::int64_t after = 0;
+  std::uint32_t joined = 0;  // more changes of this state, too close together to be told apart
+  bool close_up = false;     // in the window of a fault: never joined with others
 };
 
-// The history of one state field of one node: its changes, and how many did not fit.
+// The history of one state field of one node. Where it changes too often to keep everything, changes that lie close
+// together are joined, so that the whole capture is covered; those around faults are kept one by one.
 struct StateTrack {
   NodeRef node;
   const Layout* layout = nullptr;
@@ -39,7 +43,10 @@ struct StateTrack {
   std::int64_t first_value = 0;
   std::int64_t value = 0;  // latest
   std::vector<Event> changes;
-  std::uint64_t dropped = 0;  // changes beyond the limit, counted
+  std::uint64_t total = 0;    // changes, with the joined ones
+  DurationNs spacing_ns = 0;  // joined below this; 0: every change is kept
+
+  void add(const Event& event);
 };
 
 // One field of a message beside its value in an earlier message of the same kind.
@@ -187,12 +194,12 @@ struct Model {
   std::uint64_t more_accesses = 0;
   std::vector<RuleTotal> rules;
   std::vector<std::string> cannot_show;
-  std::map<std::uint64_t, std::string> evidence;  // sentences of the frames findings name
-  std::vector<std::string> interface_names;       // by interface id
+  ShownFrames evidence;                      // the frames findings name
+  std::vector<std::string> interface_names;  // by interface id
   std::optional<Comparison> comparison;
 };
 
 inline constexpr std::size_t kMaxFaults = 12;
-inline constexpr std::size_t kMaxChanges = 4000;  // a track
+inline constexpr std::size_t kMaxChanges = 2000;  // a track
 
 }  // namespace servotrace::report

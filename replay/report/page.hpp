@@ -46,7 +46,7 @@ class Page {
   std::string rule_link(RuleId id) const;
   std::string node_name(const NodeRef& node) const;
   std::string name_of_finding(const Finding& finding) const;
-  void evidence(std::uint64_t frame);
+  void evidence(std::uint64_t frame, const NodeRef& node);
 
   // page_story.cpp
   void verdict();
@@ -59,6 +59,7 @@ class Page {
   void advice(const Fault& fault);
   void causes(const Fault& fault);
   void before(const Fault& fault);
+  void at_rest(const Fault& fault);
   void messages(const Fault& fault);
   void message_pair(const MessagePair& pair);
   // page_nodes.cpp
@@ -77,6 +78,7 @@ class Page {
   // page_violations.cpp
   void violations();
   void rule(const std::vector<const Finding*>& findings);
+  void in_full(const Finding& finding);
   void limits();
 
   const Model& model_;

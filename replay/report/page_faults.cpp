@@ -17,7 +17,9 @@ void Page::faults() {
   heading("faults", "Faults");
   std::size_t number = 0;
   for (const Fault& entry : model_.faults) fault(entry, ++number);
-  if (model_.more_faults != 0) add("<p>{} more faults are listed under the violations only.</p>\n", model_.more_faults);
+  if (model_.more_faults != 0)
+    add("<p>{} listed under the violations only.</p>\n",
+        model_.more_faults == 1 ? "1 more fault is" : fmt::format("{} more faults are", model_.more_faults));
 }
 
 void Page::fault(const Fault& fault, std::size_t number) {
@@ -27,16 +29,28 @@ void Page::fault(const Fault& fault, std::size_t number) {
   add("<p>{} {} at {}, frame {}: {}. {}</p>\n", severity(finding.severity), rule_link(finding.rule),
       at_time(model_, finding.time_ns), finding.frame, e(row.title), e(row.why));
   if (fault.code_frame != 0) add("<p>Alarm code read in frame {}: {}.</p>\n", fault.code_frame, e(fault.code_text));
-  evidence(finding.frame);
+  evidence(finding.frame, finding.node);
   advice(fault);
   causes(fault);
   before(fault);
-  const TimeNs begin = std::max(fault.window_begin_ns, model_.capture.first_ns);
-  const TimeNs end = std::min(fault.window_end_ns, model_.capture.last_ns);
   add("<h4>The window before it</h4>\n");
-  figure(timeline(model_, settings_, buses_, begin, end), "States and findings around this fault.");
+  figure(timeline(model_, settings_, buses_, fault.window_begin_ns, fault.window_end_ns),
+         "States and findings around this fault.");
   figure(curves(model_, fault), "Signals of this node around the fault; dashed lines are findings.");
+  at_rest(fault);
   messages(fault);
+}
+
+// Signals that did not move are a sentence, no curve.
+void Page::at_rest(const Fault& fault) {
+  std::string text;
+  for (const Signal& signal : fault.signals) {
+    if (!signal.series.is_constant() || signal.series.bins().empty()) continue;
+    const std::string_view unit = symbol(signal.field->unit);
+    text += fmt::format("{}{} {}{}{}", text.empty() ? "" : ", ", signal.label,
+                        number_text(*signal.field, signal.series.bins().front().last), unit.empty() ? "" : " ", unit);
+  }
+  if (!text.empty()) add("<p class=\"facts\">Did not move: {}.</p>\n", e(text));
 }
 
 void Page::advice(const Fault& fault) {
@@ -44,11 +58,11 @@ void Page::advice(const Fault& fault) {
   add("<h4>What the drive or network reported, and what helps</h4>\n");
   begin_table({{"alarm or error"}, {"causes"}, {"remedies"}, {"section"}});
   if (fault.advice.empty()) {
-    add("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", e(row.title), e(row.why), e(row.fix),
-        e(row.section));
+    add("<tr><td>{}</td><td>{}</td><td>{}</td><td class=\"section\">{}</td></tr>\n", e(row.title), e(row.why),
+        e(row.fix), e(row.section));
   }
   for (const Advice& entry : fault.advice) {
-    add("<tr><td><strong>{}</strong>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", e(entry.name),
+    add("<tr><td><strong>{}</strong>{}</td><td>{}</td><td>{}</td><td class=\"section\">{}</td></tr>\n", e(entry.name),
         entry.likeliest && fault.advice.size() > 1 ? "<br><span class=\"chip yes\">by the evidence</span>" : "",
         entry.causes.empty() ? "the manual names none" : e(entry.causes),
         entry.remedies.empty() ? e(row.fix) : e(entry.remedies), e(entry.section));
@@ -86,7 +100,8 @@ void Page::before(const Fault& fault) {
   begin_table({{"frame", true}, {"before it", true}, {"rule"}, {"who"}, {"what"}});
   for (const std::size_t index : fault.preceding) {
     const Finding& entry = model_.findings[index];
-    add("<tr><td class=\"number\">{}</td><td class=\"number\">{}</td><td>{}</td><td>{}</td><td>{}{}</td></tr>\n",
+    add("<tr><td class=\"number\">{}</td><td class=\"number\">{}</td><td>{}</td><td "
+        "class=\"who\">{}</td><td>{}{}</td></tr>\n",
         entry.frame, duration_text(elapsed_ns(entry.time_ns, finding.time_ns)), rule_link(entry.rule),
         e(name_of_finding(entry)), e(message(entry)),
         entry.count > 1 ? fmt::format(" ({} times up to frame {})", entry.count, entry.last_frame) : "");
@@ -121,8 +136,8 @@ void Page::message_pair(const MessagePair& pair) {
   add("<div>");
   if (changed != 0) rows(true);
   if (changed < pair.rows.size()) {
-    add("<details{}><summary>{}: {} fields that did not change</summary>\n", changed == 0 ? " open" : "", direction,
-        pair.rows.size() - changed);
+    add("<details{}><summary>{}: {} that did not change</summary>\n", changed == 0 ? " open" : "", direction,
+        plural(pair.rows.size() - changed, "field"));
     rows(false);
     add("</details>\n");
   }

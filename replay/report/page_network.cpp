@@ -28,7 +28,7 @@ void Page::network() {
   heading("network", "The network");
   for (const BusSummary& bus : model_.summary.buses) {
     const std::string_view name = buses_.name(bus.bus);
-    add("<h3>{}</h3>\n<p class=\"facts\">{} frames; {}; {}</p>\n", e(name), bus.frames,
+    add("<h3>{}</h3>\n<p class=\"facts\">{}; {}; {}</p>\n", e(name), plural(bus.frames, "frame"),
         bus.protocol == Protocol::kRtex        ? "RTEX"
         : bus.protocol == Protocol::kDevicenet ? "DeviceNet"
                                                : "CAN, not recognised as DeviceNet",

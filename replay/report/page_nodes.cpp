@@ -71,7 +71,7 @@ void Page::modes(const NodeRef& node) {
     }
     if (track.changes.size() <= kMost) line(model_.capture.last_ns);
     end_table();
-    if (track.changes.size() > kMost) add("<p>{} more periods.</p>\n", track.changes.size() - kMost + track.dropped);
+    if (track.changes.size() > kMost) add("<p>{} not listed.</p>\n", track.total - kMost);
   }
 }
 
@@ -93,11 +93,11 @@ void Page::states(const NodeRef& node) {
     return fmt::format("{}, frame {}", at_time(model_, change.time_ns), change.frame);
   };
   for (const StateTrack* track : shown) {
-    const std::size_t changes = track->changes.size();
+    const bool changed = !track->changes.empty();
     add("<tr><td>{}</td><td>{}</td><td>{}</td><td class=\"number\">{}</td><td>{}</td><td>{}</td></tr>\n",
         e(track->field->label), e(value_text(*track->field, track->first_value)),
-        e(value_text(*track->field, track->value)), changes + track->dropped,
-        changes == 0 ? "" : event(track->changes.front()), changes == 0 ? "" : event(track->changes.back()));
+        e(value_text(*track->field, track->value)), track->total, changed ? event(track->changes.front()) : "",
+        changed ? event(track->changes.back()) : "");
   }
   end_table();
   add("</details>\n");
@@ -119,8 +119,8 @@ void Page::access_table(const NodeRef& node, std::string_view title, std::initia
   constexpr std::size_t kMost = 500;
   const bool fold = shown.size() > 25;
   add("<h4>{}</h4>\n", e(title));
-  if (fold) add("<details><summary>{} transactions</summary>\n", shown.size());
-  begin_table({{"time", true}, {"frame", true}, {""}, {"what"}, {"before"}, {"value"}});
+  if (fold) add("<details><summary>{}</summary>\n", plural(shown.size(), "transaction"));
+  begin_table({{"time", true}, {"frame", true}, {"kind"}, {"what"}, {"before"}, {"value"}});
   for (std::size_t i = 0; i < shown.size() && i < kMost; ++i) {
     const Access& access = *shown[i];
     add("<tr><td class=\"number\">{}</td><td class=\"number\">{}</td><td>{}</td><td>{}</td><td>{}</td>"

@@ -92,7 +92,7 @@ void Page::story() {
   std::uint64_t more = 0;
   for (const StateTrack& track : model_.tracks) {
     for (const Event& event : track.changes) lines.push_back({event.frame, event.time_ns, &event, nullptr});
-    more += track.dropped;
+    more += track.total - track.changes.size();
   }
   for (const Finding& finding : model_.findings) lines.push_back({finding.frame, finding.time_ns, nullptr, &finding});
   std::stable_sort(lines.begin(), lines.end(), [](const Line& left, const Line& right) {
@@ -101,16 +101,19 @@ void Page::story() {
   const Finding* const first = model_.verdict.first ? &model_.findings[*model_.verdict.first] : nullptr;
   const auto write = [&](const Line& line) {
     if (line.finding != nullptr) {
-      add("<tr{}><td class=\"number\">{}</td><td class=\"number\">{}</td><td>{}</td><td>{} {} {}</td></tr>\n",
+      add("<tr{}><td class=\"number\">{}</td><td class=\"number\">{}</td><td class=\"who\">{}</td><td>{} {} "
+          "{}</td></tr>\n",
           line.finding == first ? " class=\"fault-row\"" : "", at_time(model_, line.time_ns), line.frame,
           e(name_of_finding(*line.finding)), severity(line.finding->severity), rule_link(line.finding->rule),
           e(message(*line.finding)));
       return;
     }
     const Event& event = *line.event;
-    add("<tr><td class=\"number\">{}</td><td class=\"number\">{}</td><td>{}</td><td>{}: {} \xE2\x86\x92 {}</td></tr>\n",
+    add("<tr><td class=\"number\">{}</td><td class=\"number\">{}</td><td class=\"who\">{}</td><td>{}: {} \xE2\x86\x92 "
+        "{}{}</td></tr>\n",
         at_time(model_, line.time_ns), line.frame, e(node_name(event.node)), e(event.field->label),
-        e(value_text(*event.field, event.before)), e(value_text(*event.field, event.after)));
+        e(value_text(*event.field, event.before)), e(value_text(*event.field, event.after)),
+        event.joined != 0 ? fmt::format(", and {} close behind", plural(event.joined, "more change")) : "");
   };
   const auto table = [&](const std::vector<const Line*>& shown) {
     begin_table({{"time", true}, {"frame", true}, {"who"}, {"what"}});
@@ -131,11 +134,16 @@ void Page::story() {
   table({telling.begin() + static_cast<std::ptrdiff_t>(begin), telling.begin() + static_cast<std::ptrdiff_t>(end)});
   constexpr std::size_t kMost = 2000;
   if (lines.size() == end - begin) return;
-  add("<details><summary>Every change of state and every finding ({})</summary>\n", lines.size() + more);
+  add("<details class=\"long\"><summary>Every change of state and every finding ({})</summary>\n", lines.size() + more);
   std::vector<const Line*> all;
-  for (std::size_t i = 0; i < lines.size() && i < kMost; ++i) all.push_back(&lines[i]);
+  // Where there are too many, those around the first fault.
+  const auto fault = std::find_if(lines.begin(), lines.end(),
+                                  [first](const Line& line) { return first != nullptr && line.finding == first; });
+  const auto until = static_cast<std::size_t>(fault == lines.end() ? 0 : fault - lines.begin());
+  const std::size_t from = lines.size() > kMost && until > kMost * 3 / 4 ? until - kMost * 3 / 4 : 0;
+  for (std::size_t i = from; i < lines.size() && all.size() < kMost; ++i) all.push_back(&lines[i]);
   table(all);
-  if (more + lines.size() > all.size()) add("<p>{} more are not listed.</p>", more + lines.size() - all.size());
+  if (more + lines.size() > all.size()) add("<p>{} not listed.</p>", more + lines.size() - all.size());
   add("</details>\n");
 }
 

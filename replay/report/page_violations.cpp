@@ -44,7 +44,9 @@ void Page::rule(const std::vector<const Finding*>& findings) {
   constexpr std::size_t kOpen = 5;    // shown at once
   constexpr std::size_t kMost = 100;  // in the file
   for (std::size_t i = 0; i < findings.size() && i < kMost; ++i) {
-    if (i == kOpen) add("<details><summary>{} more findings of {}</summary>\n", findings.size() - kOpen, row.id);
+    if (i == kOpen)
+      add("<details class=\"long\"><summary>{} of {}</summary>\n", plural(findings.size() - kOpen, "more finding"),
+          row.id);
     const Finding& finding = *findings[i];
     add("<div class=\"finding\"><p>{} frame {} ({}), {}: {}", severity(finding.severity), finding.frame,
         at_time(model_, finding.time_ns), e(name_of_finding(finding)), e(message(finding)));
@@ -54,13 +56,39 @@ void Page::rule(const std::vector<const Finding*>& findings) {
     if (!basis.empty()) add("; setting {}", e(basis));
     add("</p>\n");
     for (const std::uint64_t related : finding.related) {
-      if (related != 0 && related != finding.frame) evidence(related);
+      if (related != 0 && related != finding.frame) evidence(related, finding.node);
     }
-    evidence(finding.frame);
+    evidence(finding.frame, finding.node);
+    in_full(finding);
     add("</div>\n");
   }
   if (findings.size() > kOpen) add("</details>\n");
   if (findings.size() > kMost) add("<p>{} more are in report.json.</p>\n", findings.size() - kMost);
+}
+
+// The frames of a finding field by field, the bytes it points at marked.
+void Page::in_full(const Finding& finding) {
+  std::vector<std::uint64_t> frames;
+  for (const std::uint64_t frame : {finding.related[0], finding.related[1], finding.frame}) {
+    const auto found = model_.evidence.find(frame_key(frame, finding.node));
+    if (frame != 0 && found != model_.evidence.end() && !found->second.bytes.empty()) frames.push_back(frame);
+  }
+  std::sort(frames.begin(), frames.end());
+  frames.erase(std::unique(frames.begin(), frames.end()), frames.end());
+  if (frames.empty()) return;
+  add("<details class=\"long\"><summary>{} in full</summary>\n<div class=\"pair\">\n",
+      frames.size() == 1 ? "The frame" : "The frames");
+  for (const std::uint64_t frame : frames) {
+    const ShownFrame& shown = model_.evidence.at(frame_key(frame, finding.node));
+    add("<div><p class=\"evidence\"><b>frame {}</b> {}</p>\n", frame, e(shown.bytes));
+    begin_table({{"field"}, {"value"}});
+    for (const ShownField& field : shown.fields)
+      add("<tr><td>{}</td><td{}>{}</td></tr>\n", e(field.label), field.marked ? " class=\"differs\"" : "",
+          e(field.value));
+    end_table();
+    add("</div>\n");
+  }
+  add("</div></details>\n");
 }
 
 void Page::limits() {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "decoder/findings/catalogue.hpp"
@@ -22,7 +23,6 @@ constexpr double kBar = 12;        // height of a state's bar
 constexpr double kRow = kBar + 4;  // and with the space below it
 constexpr std::size_t kMaxLanes = 40;
 constexpr std::size_t kMaxRows = 8;      // states a lane
-constexpr std::size_t kMaxBars = 400;    // a row
 constexpr std::size_t kMaxMarks = 1500;  // a picture
 
 struct Axis {
@@ -118,32 +118,64 @@ std::vector<Lane> make_lanes(const Model& model, const Settings& settings, const
 
 double lane_height(const Lane& lane) { return 34 + kRow * static_cast<double>(lane.tracks.size()); }
 
+// The label of the field; where command and response have a field of the same name, with the message's.
+std::string row_label(const Lane& lane, const StateTrack& track) {
+  const auto same = std::count_if(lane.tracks.begin(), lane.tracks.end(), [&track](const StateTrack* other) {
+    return other->field->label == track.field->label;
+  });
+  if (same < 2) return std::string(track.field->label);
+  return fmt::format("{} ({})", track.field->label, track.layout->key);
+}
+
 // The state over time as bars: dark where it is not 0, named where it has names.
-void draw_track(Svg& svg, const StateTrack& track, const Axis& axis, double y) {
-  svg.text(kLeft - 8, y + 10, track.field->label, "state", "end");
+void draw_track(Svg& svg, const StateTrack& track, const std::string& label, const Axis& axis, double y) {
+  svg.text(kLeft - 8, y + 10, label, "state", "end");
   TimeNs since = track.first_ns;
   std::int64_t value = track.first_value;
-  std::size_t bars = 0;
+  // Bars closer than a unit of the picture are drawn as one, so that their number is bounded.
+  struct Bar {
+    double begin = 0;
+    double end = 0;
+    std::int64_t value = 0;
+    std::uint64_t states = 0;  // 0: nothing to draw
+  };
+  Bar open;
+  const bool bad = importance(*track.field) == 0 && track.field->key != "drdy";
+  const auto flush = [&] {
+    if (open.states == 0) return;
+    const double width = std::max(open.end - open.begin, 1.0);
+    const std::string text =
+        open.states == 1 ? value_text(*track.field, open.value) : fmt::format("{} changes", open.states);
+    svg.rectangle(open.begin, y, width, kBar, bad ? "bar bad" : "bar", fmt::format("{}: {}", track.field->label, text));
+    const ValueName* name = find_value(track.field->values, open.value);
+    if (open.states == 1 && track.field->kind != Kind::kBool && name != nullptr &&
+        width > 7.0 * static_cast<double>(name->name.size()) + 6)
+      svg.text(open.begin + 4, y + kBar - 2.5, name->name, "in-bar");
+    open = {};
+  };
+  std::uint32_t joined = 0;
   const auto bar = [&](TimeNs until) {
-    if (value != 0 && until >= axis.begin_ns && since <= axis.end_ns && bars < kMaxBars) {
-      const double x = axis.x(since);
-      const bool bad = importance(*track.field) == 0 && track.field->key != "drdy";
-      const double width = std::max(axis.x(until) - x, 1.0);
-      const std::string text = value_text(*track.field, value);
-      svg.rectangle(x, y, width, kBar, bad ? "bar bad" : "bar", fmt::format("{}: {}", track.field->label, text));
-      const ValueName* name = find_value(track.field->values, value);
-      if (track.field->kind != Kind::kBool && name != nullptr &&
-          width > 7.0 * static_cast<double>(name->name.size()) + 6)
-        svg.text(x + 4, y + kBar - 2.5, name->name, "in-bar");
-      ++bars;
+    if ((value == 0 && joined == 0) || until < axis.begin_ns || since > axis.end_ns) return;
+    const double begin = axis.x(since);
+    // Joined changes stand for a state that went to and fro; where it ended at 0 only their place is drawn.
+    const double end = value == 0 ? begin + 1 : axis.x(until);
+    const std::uint64_t states = 1U + joined;
+    if (open.states != 0 && begin - open.end < 1 && (end - begin < 1 || open.end - open.begin < 1)) {
+      open.end = std::max(open.end, end);
+      open.states += states;
+      return;
     }
+    flush();
+    open = {begin, end, value, states};
   };
   for (const Event& event : track.changes) {
     bar(event.time_ns);
     since = event.time_ns;
     value = event.after;
+    joined = event.joined;
   }
   bar(axis.end_ns);
+  flush();
 }
 
 }  // namespace
@@ -182,9 +214,13 @@ std::string timeline(const Model& model, const Settings& settings, const replay:
   for (const Lane& lane : lanes) {
     svg.line(0, y - 2, kWidth, y - 2, "lane");
     svg.text(4, y + 14, lane.name, "lane-name");
+    std::array<double, 3> latest = {-10, -10, -10};  // of each severity: marks on top of each other are one
     for (const Finding* finding : lane.findings) {
-      if (++marks > kMaxMarks) break;
       const double x = axis.x(finding->time_ns);
+      double& before = latest[static_cast<std::size_t>(finding->severity)];
+      if (x - before < 2) continue;
+      before = x;
+      if (++marks > kMaxMarks) break;
       if (finding->last_time_ns > finding->time_ns && axis.x(finding->last_time_ns) > x + 1)
         svg.line(x, y + 19, axis.x(finding->last_time_ns), y + 19,
                  fmt::format("episode {}", mark_class(finding->severity)));
@@ -194,7 +230,7 @@ std::string timeline(const Model& model, const Settings& settings, const replay:
     }
     y += 26;
     for (const StateTrack* track : lane.tracks) {
-      draw_track(svg, *track, axis, y);
+      draw_track(svg, *track, row_label(lane, *track), axis, y);
       y += kRow;
     }
     y += 8;
@@ -214,7 +250,8 @@ std::string timeline(const Model& model, const Settings& settings, const replay:
 
 std::string curves(const Model& model, const Fault& fault) {
   constexpr std::size_t kMaxCurves = 8;
-  constexpr double kCurve = 84;
+  constexpr double kCurve = 92;  // a signal: its name, and below it the curve
+  constexpr double kName = 16;
   std::vector<const Signal*> shown;
   for (const Signal& signal : fault.signals) {  // what moves first, what stands still only where nothing moves
     if (!signal.series.is_constant() && shown.size() < kMaxCurves) shown.push_back(&signal);
@@ -237,12 +274,12 @@ std::string curves(const Model& model, const Fault& fault) {
       first = false;
     }
     const double span = high > low ? high - low : 1;
-    const auto y = [&](double value) { return top + (kCurve - 18) * (1 - (value - low) / span) + 4; };
+    const auto y = [&](double value) { return top + kName + (kCurve - kName - 18) * (1 - (value - low) / span); };
     svg.line(kLeft, top + kCurve - 10, kWidth - kRight, top + kCurve - 10, "lane");
-    svg.text(4, top + 20, signal->label, "lane-name");
-    svg.text(4, top + 36, std::string(symbol(signal->field->unit)), "tick");
+    const std::string_view unit = symbol(signal->field->unit);
+    svg.text(4, top + 8, unit.empty() ? signal->label : fmt::format("{}, {}", signal->label, unit), "lane-name");
     for (const double mark : ticks(low, high, 3))
-      svg.text(kLeft - 6, y(mark) + 3, fmt::format("{:g}", mark), "tick", "end");
+      svg.text(kLeft - 6, y(mark) + 3, fmt::format("{:.10g}", mark), "tick", "end");
     std::vector<std::pair<double, double>> points;
     for (const Series::Bin& bin : signal->series.bins()) {
       const double x = axis.x(bin.time_ns);

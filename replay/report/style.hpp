@@ -30,10 +30,12 @@ nav ul{display:flex;flex-wrap:wrap;gap:4px 18px;list-style:none;padding:0;margin
 .verdict .headline{font-size:1.2rem;line-height:1.4;font-weight:650;margin:0 0 8px}
 table{border-collapse:collapse;width:100%;margin:8px 0;font-size:.9rem}
 th,td{border-bottom:1px solid var(--line);padding:5px 10px;text-align:left;vertical-align:top}
-thead th{color:var(--soft);font-weight:600;font-size:.82rem;border-bottom-width:2px;white-space:nowrap}
+thead th,thead td{color:var(--soft);font-weight:600;font-size:.82rem;border-bottom-width:2px;white-space:nowrap}
 tbody th{font-weight:600;color:var(--soft);width:16rem}
 tbody tr:nth-child(even){background:var(--stripe)}
 td.number,th.number{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
+tr>.number:first-child,tr>.number:first-child+.number,tr>.number:first-child+.number+.number{width:1%}
+td.section,td.who{white-space:nowrap}
 tr.fault-row td{background:var(--bad-soft);font-weight:600}
 .wide{overflow-x:auto}
 .pair{display:grid;grid-template-columns:repeat(auto-fit,minmax(430px,1fr));gap:0 28px}
@@ -65,7 +67,7 @@ footer{margin-top:56px;color:var(--soft);font-size:.85rem;border-top:1px solid v
 @media print{:root{--ink:#000;--soft:#444;--line:#bbb;--paper:#fff;--panel:#f4f4f4;--accent:#003a8c;--bar:#8fa9c4;--bar-ink:#000;--bad:#a01010;--bad-soft:#fdf0ee;--warn:#6d4600;--warn-soft:#fff8e6;--note:#345;--good:#0d5a28;--good-soft:#f0f8f2;--mark:#ffe9a8;--stripe:#fafafa}
 *{-webkit-print-color-adjust:exact;print-color-adjust:exact}
 @page{margin:14mm}body{max-width:none;padding:0;font-size:9.5pt}h2,h3,h4,thead{break-after:avoid}h2{margin-top:26px}figure,tr,.verdict,.figures,.finding{break-inside:avoid}
-nav,.skip,summary{display:none}details::details-content{content-visibility:visible;display:block}.wide{overflow:visible}.pair{grid-template-columns:1fr 1fr;gap:0 14px}.pair table{font-size:7.5pt}table{font-size:8.5pt}th,td{padding:2px 5px}.evidence{font-size:7.5pt}}
+nav,.skip,summary,details.long{display:none}details::details-content{content-visibility:visible;display:block}.wide{overflow:visible}.pair{grid-template-columns:1fr 1fr;gap:0 14px}.pair table{font-size:7.5pt}table{font-size:8.5pt}thead th,thead td{font-size:8pt}th,td{padding:2px 5px}.evidence{font-size:7.5pt}}
 )css";
 
 }  // namespace servotrace::report

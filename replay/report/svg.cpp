@@ -57,19 +57,21 @@ std::string escape_html(std::string_view text) {
   return result;
 }
 
+// The attributes are for pages whose style sheet was stripped: any rule of a class overrides them.
 Svg::Svg(double width, double height, std::string_view title)
-    : head_(fmt::format("<svg viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" aria-label=\"{}\"><title>{}</title>\n", width,
-                        height, escape_html(title), escape_html(title))) {}
+    : head_(fmt::format(
+          "<svg viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" aria-label=\"{}\" fill=\"#333\"><title>{}</title>\n", width,
+          height, escape_html(title), escape_html(title))) {}
 
 void Svg::line(double x1, double y1, double x2, double y2, std::string_view css_class) {
-  body_ += fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" class=\"{}\"/>\n", x1, y1, x2, y2,
-                       css_class);
+  body_ += fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"#999\" class=\"{}\"/>\n",
+                       x1, y1, x2, y2, css_class);
 }
 
 void Svg::rectangle(double x, double y, double width, double height, std::string_view css_class,
                     std::string_view tooltip) {
-  body_ += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" class=\"{}\"", x, y, width,
-                       height, css_class);
+  body_ += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"{}\" class=\"{}\"", x,
+                       y, width, height, css_class == "lane-back" ? "none" : "#9ab", css_class);
   body_ += tooltip.empty() ? "/>\n" : fmt::format("><title>{}</title></rect>\n", escape_html(tooltip));
 }
 
@@ -80,7 +82,7 @@ void Svg::text(double x, double y, std::string_view text, std::string_view css_c
 
 void Svg::polyline(const std::vector<std::pair<double, double>>& points, std::string_view css_class) {
   if (points.empty()) return;
-  body_ += fmt::format("<polyline class=\"{}\" points=\"", css_class);
+  body_ += fmt::format("<polyline fill=\"none\" stroke=\"#36c\" class=\"{}\" points=\"", css_class);
   for (const auto& [x, y] : points) body_ += fmt::format("{:.1f},{:.1f} ", x, y);
   body_.back() = '"';
   body_ += "/>\n";

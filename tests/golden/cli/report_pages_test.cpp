@@ -112,6 +112,25 @@ TEST_F(ReportPages, SectionsStandInTheirOrder) {
   EXPECT_THAT(html, HasSubstr("Alarms read"));
 }
 
+// A frame of a ring is shown as the axis concerned sees it, and field by field with the bytes in question marked.
+TEST_F(ReportPages, EvidenceIsShownInFull) {
+  const std::string cable = page("failure_cable", "html");
+  EXPECT_THAT(cable, HasSubstr("<b>388</b> axis 3 response"));
+  EXPECT_THAT(cable, Not(HasSubstr("<b>388</b> axis 1")));
+  const std::string lost = page("failure_lost_update", "html");
+  EXPECT_THAT(lost, HasSubstr("in full</summary>"));
+  EXPECT_THAT(lost, ::testing::ContainsRegex("<td>Update_Counter</td><td class=\"differs\">[0-3]</td>"));
+}
+
+// A drive that has not answered yet is no axis 0.
+TEST_F(ReportPages, NoAxisThatIsNotThere) {
+  const nlohmann::json report = nlohmann::json::parse(page("failure_lost_update", "json"))["captures"][0];
+  for (const nlohmann::json& track : report["states"]) EXPECT_NE(track["node"]["mac_id"], 0) << track["field"];
+  ASSERT_EQ(program.run({"export", "run.pcapng", "-o", "run.csv"}).status, 0);
+  EXPECT_THAT(program.read("run.csv"), Not(HasSubstr("axis0")));
+  EXPECT_THAT(program.read("run.csv"), HasSubstr("axis2"));
+}
+
 // Errors, warnings and every finding are those of `check`.
 TEST_F(ReportPages, NumbersAgreeWithCheck) {
   for (const std::string& scenario : scenarios()) {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Downsampling keeps every spike; the SVG writer keeps markup whole; the symptom table names rules that exist.
+// Downsampling keeps every spike and the whole capture; the SVG writer keeps markup whole; the symptom table names
+// rules that exist.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "decoder/findings/catalogue.hpp"
+#include "replay/report/model.hpp"
 #include "replay/report/series.hpp"
 #include "replay/report/svg.hpp"
 #include "replay/report/symptoms.hpp"
@@ -54,6 +56,35 @@ TEST(Svg, TicksAreRoundAndFew) {
   EXPECT_EQ(ticks(0, 1, 5), (std::vector<double>{0, 0.2, 0.4, 0.6000000000000001, 0.8, 1}));
   EXPECT_TRUE(ticks(1, 1, 5).empty());
   EXPECT_LE(ticks(-3e9, 7e9, 9).size(), 11U);
+}
+
+TEST(StateTrack, CoversTheWholeCaptureInBoundedMemory) {
+  StateTrack track;
+  constexpr std::uint64_t kChanges = 20'000;
+  for (std::uint64_t i = 1; i <= kChanges; ++i) {
+    const auto time_ns = static_cast<TimeNs>(i) * kMillisecondNs;
+    const auto value = static_cast<std::int64_t>(i % 2);
+    const bool close_up = i > 15'000 && i <= 15'100;
+    track.add({.time_ns = time_ns, .frame = i, .before = 1 - value, .after = value, .close_up = close_up});
+  }
+  EXPECT_LE(track.changes.size(), kMaxChanges);
+  EXPECT_EQ(track.total, kChanges);
+  EXPECT_EQ(track.value, 0);
+  EXPECT_EQ(track.changes.front().frame, 1U);
+  EXPECT_EQ(track.changes.back().after, 0);
+  EXPECT_GT(track.changes.back().frame, kChanges - 100);
+  std::uint64_t total = 0;
+  std::uint64_t kept = 0;
+  std::int64_t state = 0;
+  for (const Event& event : track.changes) {
+    EXPECT_EQ(event.before, state);  // one follows the other
+    state = event.after;
+    total += 1 + event.joined;
+    kept += event.frame > 15'000 && event.frame <= 15'100 ? 1 : 0;
+    EXPECT_TRUE(!event.close_up || event.joined == 0) << event.frame;
+  }
+  EXPECT_EQ(total, kChanges);
+  EXPECT_EQ(kept, 100U);
 }
 
 TEST(Symptoms, NameRulesThatExist) {
