@@ -178,7 +178,7 @@ std::string_view derived_words(const Dissection& dissection, std::string_view ke
 
 // Of the body of an explicit message, what service, object and attribute do not say: the choices of an allocation, why
 // a request was refused.
-std::string explicit_words(const Segment& segment, Bytes bytes) {
+std::string explicit_words(const Segment& segment, Bytes bytes, bool object_told, bool attribute_told) {
   std::string words;
   for_each_field(*segment.layout, bytes, [&](const Field& field, std::int64_t raw, Bytes) {
     const ValueName* const name = find_value(field.values, raw);
@@ -186,6 +186,10 @@ std::string explicit_words(const Segment& segment, Bytes bytes) {
       join(words, ", ", fmt::format("refused: {}", name == nullptr ? value_text(field, raw) : std::string(name->name)));
     } else if (field.key.starts_with("choice_") && raw != 0) {
       join(words, ", ", field.label);
+    } else if (!object_told && (field.key == "class" || field.key == "instance")) {
+      join(words, ", ", fmt::format("{} {}", field.key, value_text(field, raw)));
+    } else if (!attribute_told && field.key == "attribute") {
+      join(words, ", ", fmt::format("attribute {}", raw));
     } else if (field.key == "reset_type") {
       join(words, ", ", name == nullptr ? value_text(field, raw) : std::string(name->name));
     }
@@ -194,11 +198,10 @@ std::string explicit_words(const Segment& segment, Bytes bytes) {
 }
 
 // The value of an attribute that is one number.
-std::string attribute_words(const Segment& segment, Bytes bytes) {
+std::string attribute_words(const Segment& segment, Bytes bytes, std::string_view attribute) {
   const std::span<const Field> fields = segment.layout->fields;
-  if (segment.layout->protocol != "dnet" || fields.size() != 1 || slot_of(fields[0]).width == 0) return {};
-  static constexpr std::string_view kObjects[] = {"identity", "router", "devicenet", "assembly", "connection", "class"};
-  if (std::find(std::begin(kObjects), std::end(kObjects), segment.layout->key) == std::end(kObjects)) return {};
+  if (attribute.empty() || segment.layout->title != attribute) return {};
+  if (fields.size() != 1 || slot_of(fields[0]).width == 0) return {};
   return value_text(fields[0], read(slot_of(fields[0]), bytes));
 }
 
@@ -223,14 +226,17 @@ std::string message_words(const Dissection& dissection, const Settings* settings
     if (told) join(words, ", ", entry.field->label);
   }
   const bool has_service = !derived_words(dissection, "service_name").empty();
+  const std::string_view attribute = derived_words(dissection, "attribute_name");
+  const bool attribute_told = !attribute.empty();
+  const bool object_told = !derived_words(dissection, "object_name").empty();
   for (const Segment& segment : dissection.segments) {
     // The header of an explicit message is what service_name and its like have said.
     const Bytes bytes = dissection.bytes(segment);
     if (has_service && segment.layout->protocol == "dnet" && segment.layout->key == "explicit") {
-      join(words, ", ", explicit_words(segment, bytes));
+      join(words, ", ", explicit_words(segment, bytes, object_told, attribute_told));
       continue;
     }
-    std::string part = attribute_words(segment, bytes);
+    std::string part = attribute_words(segment, bytes, attribute);
     if (!part.empty()) {
       join(words, " = ", part);
       continue;

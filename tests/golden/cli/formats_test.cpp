@@ -17,6 +17,7 @@ namespace {
 
 using nlohmann::json;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 class Formats : public ::testing::Test {
@@ -257,6 +258,18 @@ TEST_F(Formats, DecodeOfAProgramEditPrintsTheProgram) {
   const Outcome text = program.run({"decode", "edit.pcapng", "--config", "servotrace.toml"});
   EXPECT_EQ(text.status, 0) << text.err;
   EXPECT_THAT(text.out, HasSubstr("IR/EX100/4&, CV1.0000, CA1.00]\n")) << "611 with 660 to 663";
+}
+
+// A sub-command channel at rest says nothing; a monitored quantity is in the sentence.
+TEST_F(Formats, BriefOfMonitorsAndTheSubChannel) {
+  program.simulate("rtex_clean_wide", "wide");
+  const Outcome brief = program.run({"decode", "wide.pcapng", "--brief"});
+  EXPECT_THAT(brief.out, Not(HasSubstr("type code 00h, index 0")));
+  program.write("monitor.toml",
+                "title = \"Monitors\"\nsilent = [\"RX308\"]\n[[ring]]\ncycle_us = 500\naxis = [{mac_id = 1}]\n"
+                "step = [{do = \"wait\", cycles = 40}, {do = \"monitor\", type = 0x62}]\n");
+  ASSERT_EQ(program.run({"simulate", "monitor.toml", "-o", "monitor.pcapng"}).status, 0);
+  EXPECT_THAT(program.run({"decode", "monitor.pcapng", "--brief"}).out, HasSubstr("Servo driver temperature 41 degC"));
 }
 
 TEST_F(Formats, InfoTellsBusesAndTimes) {

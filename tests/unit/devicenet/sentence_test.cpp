@@ -29,7 +29,20 @@ TEST(Sentences, OfExplicitMessages) {
   EXPECT_EQ(sentence(bench.dissection()),
             "node 5 Explicit response: Get_Attribute_Single DeviceNet Baud rate, refused: attribute not supported");
   bench.frame(0x42C, "01 0E 25 01 06");  // a position controller without a profile
-  EXPECT_EQ(sentence(bench.dissection()), "node 5 Explicit request: Get_Attribute_Single Position Controller");
+  EXPECT_EQ(sentence(bench.dissection()),
+            "node 5 Explicit request: Get_Attribute_Single Position Controller, attribute 6");
+  bench.frame(0x42C, "01 32 64 01 93 05");
+  EXPECT_EQ(sentence(bench.dissection()),
+            "node 5 Explicit request: service 32h (vendor specific), class 64h, instance 1");
+}
+
+// The value of a drive's own attribute, with its unit.
+TEST(Sentences, OfADrivesAttributes) {
+  Bench bench{Bench::with_profile(5, "yaskawa-ns310")};
+  bench.start(5).allocate(5).frame(0x42C, "01 0E 64 01 0D").frame(0x42B, "01 8E 58 02 00 00");
+  EXPECT_EQ(sentence(bench.dissection()),
+            "node 5 Explicit response: Get_Attribute_Single Control Parameter Object Home Fast Speed for Homing = 600 "
+            "x1000 steps/min");
 }
 
 // SocketCAN error classes: 40h bus-off, 08h and 80h protocol violation and bus error.
