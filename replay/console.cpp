@@ -26,7 +26,7 @@ void complain(std::string_view message) {
 
 void complain(const Error& error) { complain(error.text()); }
 
-StandardOut::~StandardOut() { flush(); }
+StandardOut::~StandardOut() { StandardOut::flush(); }
 
 void StandardOut::write(std::string_view text) {
   if (closed_ || error_ != 0) return;

@@ -93,7 +93,10 @@ int main(int argc, char** argv) {
   config.context = &buffer;
   config.node_count = AXES;
   config.cycle_ns = 500000;
-  if (servotrace_rtex_open(&recorder, &config) != 0) return 2;
+  if (servotrace_rtex_open(&recorder, &config) != 0) {
+    fclose(file);
+    return 2;
+  }
   for (cycle = 0; cycle < cycles; ++cycle) {
     /* the cyclic task */
     run_cycle(&ring, cycle);
@@ -105,10 +108,13 @@ int main(int argc, char** argv) {
   }
   if (drain(&buffer, file) != 0) {
     perror(argv[1]);
+    fclose(file);
     return 2;
   }
-  if (dropped != 0 && (servotrace_rtex_dropped(&recorder, time_ns, dropped) != 0 || drain(&buffer, file) != 0))
+  if (dropped != 0 && (servotrace_rtex_dropped(&recorder, time_ns, dropped) != 0 || drain(&buffer, file) != 0)) {
+    fclose(file);
     return 2;
+  }
   if (fclose(file) != 0) {
     perror(argv[1]);
     return 2;

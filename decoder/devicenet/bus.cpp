@@ -53,15 +53,13 @@ bool Bus::raise(const Context& context, const Report& report) {
   return findings_.raise(context.frame, report);
 }
 
-void Bus::derive(Dissection* dissection, const Field& field, std::int64_t value, const NodeRef& ref,
-                 std::string_view text) {
-  if (dissection == nullptr) return;
-  dissection->derived.push_back({.field = &field, .protocol = "dnet", .value = value, .text = text, .node = ref});
+void Bus::add_derived(Dissection& dissection, const Field& field, std::int64_t value, const NodeRef& ref,
+                      std::string_view text) {
+  dissection.derived.push_back({.field = &field, .protocol = "dnet", .value = value, .text = text, .node = ref});
 }
 
-Node& Bus::node(std::int16_t mac_id) {
+Node& Bus::make_node(std::int16_t mac_id) {
   std::unique_ptr<Node>& place = nodes_[static_cast<std::size_t>(mac_id)];
-  if (place) return *place;
   place = std::make_unique<Node>();
   Node& made = *place;
   const auto mac = static_cast<unsigned>(mac_id);
@@ -98,6 +96,7 @@ void Bus::make_session(Node& node, const DriveProfile& profile, Recognised how, 
   if (profile.make_session == nullptr) return;
   node.session = profile.make_session(settings_, node.ref, node.owner, how == Recognised::kGuessed);
   if (node.session) sessions_.push_back(&node);
+  starts_untold_ = true;
 }
 
 void Bus::gap() {
@@ -294,7 +293,7 @@ void Bus::push_data(const Arrival& arrival) {
   }
   // Whose frame it is: the slave's by its place in the predefined set, else the sender's.
   Node* const entry = id.mac_id == kNoMacId || id.row->role == MacRole::kGroup ? nullptr : &node(id.mac_id);
-  show_identifier(arrival, entry);
+  if (arrival.context.dissection != nullptr) show_identifier(arrival, entry);
   if (entry != nullptr && id.source() >= 0 && kind != MessageKind::kMacCheck) transmitted(arrival, *entry);
   Dissection* const dissection = arrival.context.dissection;
   const Bytes data = arrival.can.data;

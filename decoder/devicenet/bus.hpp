@@ -65,7 +65,11 @@ class Bus {
   void invalid(const Context& context, const can::Frame& frame, std::int64_t kind);
   void show_identifier(const Arrival& arrival, const Node* node) const;
   void show_plain(const Arrival& arrival, const Node& node, const Layout& layout) const;
-  Node& node(std::int16_t mac_id);
+  Node& node(std::int16_t mac_id) {
+    Node* const known = nodes_[static_cast<std::size_t>(mac_id)].get();
+    return known != nullptr ? *known : make_node(mac_id);
+  }
+  Node& make_node(std::int16_t mac_id);
   void check_deadlines(const Context& context);
   void note_deadline(TimeNs deadline_ns) {
     if (deadline_ns < next_deadline_ns_) next_deadline_ns_ = deadline_ns;
@@ -84,7 +88,12 @@ class Bus {
                        FragmentType type, std::uint8_t count, ByteRange where, Actor sender);
   void show_fragments(const Arrival& arrival, const Transfer& transfer, const NodeRef& ref) const;
   static void derive(Dissection* dissection, const Field& field, std::int64_t value, const NodeRef& ref,
-                     std::string_view text = {});
+                     std::string_view text = {}) {
+    if (dissection != nullptr) [[unlikely]]
+      add_derived(*dissection, field, value, ref, text);
+  }
+  static void add_derived(Dissection& dissection, const Field& field, std::int64_t value, const NodeRef& ref,
+                          std::string_view text);
 
   // start.cpp
   void push_mac_check(const Arrival& arrival);
@@ -188,7 +197,7 @@ class Bus {
 
   std::array<std::unique_ptr<Node>, kMacIds> nodes_;
   std::vector<Node*> sessions_;     // nodes with a drive session
-  bool starts_untold_ = false;      // of any node
+  bool starts_untold_ = false;      // a node with a session may not have heard of its start
   DriveSession* served_ = nullptr;  // the session this frame was handed to
   std::vector<DynamicConnection> dynamic_;
   std::array<PendingOpen, 16> opens_ = {};

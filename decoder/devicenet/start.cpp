@@ -125,6 +125,7 @@ void Bus::started(const Arrival& arrival, Node& node, bool certain) {
 // soon as there is one.
 void Bus::tell_starts(const Context& context) {
   if (!devicenet_) return;
+  starts_untold_ = false;
   for (Node* node : sessions_) {
     if (!node->start_untold) continue;
     node->start_untold = false;

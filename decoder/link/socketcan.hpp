@@ -31,4 +31,9 @@ struct Place {
 // A truncated record yields found and malformed: the caller knows that it is cut.
 Place find_frame(const RawFrame& frame);
 
+// False where find_frame() finds nothing, whatever the bytes are.
+constexpr bool may_hold_can(LinkType type) {
+  return type == LinkType::kCanSocketcan || type == LinkType::kLinuxSll || type == LinkType::kLinuxSll2;
+}
+
 }  // namespace servotrace::can

@@ -240,10 +240,12 @@ void Pipeline::push(const RawFrame& frame, Dissection* dissection) {
     self.findings.calm(interface->owner, rule("CP101"));
   }
   self.findings.checked(rule("CP101"));
-  const can::Place can_place = can::find_frame(frame);
-  if (can_place.found) {
-    self.push_can(frame, *interface, can_place, truncated, dissection);
-    return;
+  if (can::may_hold_can(frame.link_type)) {
+    const can::Place can_place = can::find_frame(frame);
+    if (can_place.found) {
+      self.push_can(frame, *interface, can_place, truncated, dissection);
+      return;
+    }
   }
   const rtex::RecordPlace record = rtex::find_record(frame, self.settings.rtex);
   if (record.carrier != rtex::Carrier::kNone) {

@@ -7,14 +7,10 @@ namespace {
 
 constexpr std::uint32_t kStaleResponses = 8;  // byte for byte the same, this one included
 
-Outcome pass_or(bool raised, Scene& scene, const Report& report) {
-  return raised ? scene.raise(report) : Outcome::kPassed;
-}
-
 }  // namespace
 
 Outcome communication_error(Scene& scene) {
-  return pass_or(scene.node->response.communication_error, scene, {.where = scene.bytes(1, 1)});
+  return scene.node->response.communication_error ? scene.raise({.where = scene.bytes(1, 1)}) : Outcome::kPassed;
 }
 
 Outcome mac_id_mismatch(Scene& scene) {
@@ -30,32 +26,35 @@ Outcome mac_id_mismatch(Scene& scene) {
                       .related = {at_command ? node.response_frame : node.command_frame, 0}});
 }
 
-Outcome command_cr_set(Scene& scene) { return pass_or(scene.node->command.cr, scene, {.where = scene.bytes(0, 1)}); }
+Outcome command_cr_set(Scene& scene) {
+  return scene.node->command.cr ? scene.raise({.where = scene.bytes(0, 1)}) : Outcome::kPassed;
+}
 
 Outcome response_cr_clear(Scene& scene) {
   const Node& node = *scene.node;
   if (!node.answered || node.zero_response) return Outcome::kSilent;  // all zero is RX108
-  return pass_or(!node.response.cr, scene, {.where = scene.bytes(0, 1)});
+  return !node.response.cr ? scene.raise({.where = scene.bytes(0, 1)}) : Outcome::kPassed;
 }
 
 Outcome cyclic_code_undefined(Scene& scene) {
   const std::uint8_t cyclic = scene.node->command.cyclic;
-  return pass_or(cyclic > 4, scene, {.arguments = {cyclic}, .where = scene.bytes(1, 1)});
+  return cyclic > 4 ? scene.raise({.arguments = {cyclic}, .where = scene.bytes(1, 1)}) : Outcome::kPassed;
 }
 
 Outcome unused_bit_set(Scene& scene) {
   const CommandView& command = scene.node->command;
   const bool raised = command.unused_bits != 0 || command.sub_unused != 0;
   const ByteRange where = command.unused_bits != 0 ? scene.bytes(2, 2) : scene.bytes(kSubHeaderAt, 1);
-  return pass_or(
-      raised, scene,
-      {.arguments = {command.unused_bits & 0xFF, command.unused_bits >> 8, command.sub_unused << 4}, .where = where});
+  return raised ? scene.raise(
+                      {.arguments = {command.unused_bits & 0xFF, command.unused_bits >> 8, command.sub_unused << 4},
+                       .where = where})
+                : Outcome::kPassed;
 }
 
 Outcome sub_chk_clear(Scene& scene) {
   const CommandView& command = scene.node->command;
   if (!command.wide) return Outcome::kSilent;
-  return pass_or(!command.sub_chk, scene, {.where = scene.bytes(kSubHeaderAt, 1)});
+  return !command.sub_chk ? scene.raise({.where = scene.bytes(kSubHeaderAt, 1)}) : Outcome::kPassed;
 }
 
 Outcome response_missing(Scene& scene) {
@@ -71,8 +70,9 @@ Outcome response_missing(Scene& scene) {
 Outcome communication_errors_sustained(Scene& scene) {
   const Node& node = *scene.node;
   const auto limit = static_cast<std::uint32_t>(scene.limits().communication_errors);
-  return pass_or(node.communication_errors != 0 && node.communication_errors >= limit, scene,
-                 {.arguments = {node.communication_errors}, .where = scene.bytes(1, 1)});
+  return node.communication_errors != 0 && node.communication_errors >= limit
+             ? scene.raise({.arguments = {node.communication_errors}, .where = scene.bytes(1, 1)})
+             : Outcome::kPassed;
 }
 
 Outcome too_many_axes(Scene& scene) {
@@ -81,7 +81,8 @@ Outcome too_many_axes(Scene& scene) {
   std::int64_t blocks = 0;
   for (unsigned i = 0; i < ring.node_count; ++i) blocks += (ring.wide_nodes >> i & 1U) != 0 ? 2 : 1;
   const std::int64_t allowed = ring.cycle_ns.value == 83'333 ? 5 : ring.cycle_ns.value == 166'667 ? 10 : 32;
-  return pass_or(blocks > allowed, scene, {.arguments = {blocks, allowed}, .basis = ring.cycle_ns.basis});
+  return blocks > allowed ? scene.raise({.arguments = {blocks, allowed}, .basis = ring.cycle_ns.basis})
+                          : Outcome::kPassed;
 }
 
 Outcome mac_id_duplicate(Scene& scene) {

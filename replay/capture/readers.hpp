@@ -18,8 +18,8 @@ class FileSource : public Source {
   std::uint64_t total() const override { return input_->total(); }
 
  protected:
-  FileSource(std::unique_ptr<Input> input, std::string name, std::string format) : input_(std::move(input)) {
-    name_ = std::move(name);
+  FileSource(std::unique_ptr<Input> input, std::string name, std::string format)
+      : input_(std::move(input)), name_(std::move(name)) {
     format_ = std::move(format);
   }
   Error broken(std::uint64_t at, std::string what) const {

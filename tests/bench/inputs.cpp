@@ -41,7 +41,26 @@ bool same_blocks(const simulator::SimulatedFrame& left, const simulator::Simulat
   return std::equal(one.begin(), one.end(), other.begin(), other.end());
 }
 
-constexpr std::size_t kPeriod = 2 * 1024;  // records: every counter and every handshake returns in it
+// A stretch whose end joins its beginning, behind the start of the ring and before its end.
+struct Stretch {
+  std::size_t first = 0;   // its first record
+  std::size_t length = 0;  // records; 0: none was found
+};
+
+Stretch find_stretch(const std::vector<simulator::SimulatedFrame>& frames) {
+  constexpr std::size_t kJoint = 64;                      // records that must be the same at both ends
+  constexpr std::size_t kStart = 512;                     // until the ring runs and every servo is on
+  constexpr std::size_t kLongest = 2 * 1024, kStep = 16;  // whole periods of every counter
+  for (std::size_t length = kLongest; length > 2 * kJoint; length -= kStep) {
+    if (frames.size() < kStart + length + 2 * kJoint) continue;
+    for (std::size_t at = frames.size() - length - 2 * kJoint; at > kStart; at -= 2) {
+      bool joins = true;
+      for (std::size_t i = 0; joins && i < kJoint; ++i) joins = same_blocks(frames[at + i], frames[at + length + i]);
+      if (joins) return {at, length};
+    }
+  }
+  return {};
+}
 
 void append_repeated(simulator::Simulation& simulation, std::size_t wanted) {
   auto& frames = simulation.frames;
@@ -49,25 +68,18 @@ void append_repeated(simulator::Simulation& simulation, std::size_t wanted) {
     frames.resize(wanted);
     return;
   }
-  // A period whose end joins its beginning, after the start of the ring and before its end.
-  constexpr std::size_t kJoint = 64;
-  std::size_t first = 0;
-  for (std::size_t at = frames.size() - kPeriod - 2 * kJoint; at > kPeriod && first == 0; at -= 2) {
-    bool joins = true;
-    for (std::size_t i = 0; joins && i < kJoint; ++i) joins = same_blocks(frames[at + i], frames[at + kPeriod + i]);
-    if (joins) first = at;
-  }
-  if (first == 0) throw std::runtime_error("no period found to repeat");
-  frames.resize(first + kPeriod);
-  const DurationNs took_ns = frames[first + kPeriod - 2].time_ns - frames[first - 2].time_ns;
+  const auto [first, length] = find_stretch(frames);
+  if (length == 0) throw std::runtime_error("no period found to repeat");
+  frames.resize(first + length);
+  const DurationNs took_ns = frames[first + length - 2].time_ns - frames[first - 2].time_ns;
   constexpr Slot kSequence = slot(rtex::kRecord, "sequence");
   frames.reserve(wanted);
   while (frames.size() < wanted) {
-    simulator::SimulatedFrame next = frames[frames.size() - kPeriod];
+    simulator::SimulatedFrame next = frames[frames.size() - length];
     next.time_ns += took_ns;
     const Bytes record = record_of(next);
     const auto offset = static_cast<std::size_t>(record.data() - next.bytes.data());
-    const auto sequence = static_cast<std::uint32_t>(read(kSequence, record)) + static_cast<std::uint32_t>(kPeriod / 2);
+    const auto sequence = static_cast<std::uint32_t>(read(kSequence, record)) + static_cast<std::uint32_t>(length / 2);
     if (!write(kSequence, MutableBytes(next.bytes).subspan(offset), sequence)) throw std::runtime_error("no sequence");
     frames.push_back(std::move(next));
   }
