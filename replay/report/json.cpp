@@ -264,6 +264,29 @@ class Writer {
           .member("frame", finding.cause.frame)
           .end_object();
     }
+    json_.key("evidence").begin_array();
+    for (const std::uint64_t related : finding.related) {
+      if (related != 0 && related != finding.frame) evidence(related, finding.node);
+    }
+    evidence(finding.frame, finding.node);
+    json_.end_array();
+    json_.end_object();
+  }
+
+  void evidence(std::uint64_t frame, const NodeRef& node) {
+    const auto found = model_.evidence.find(frame_key(frame, node));
+    if (found == model_.evidence.end()) return;
+    const ShownFrame& shown = found->second;
+    json_.begin_object().member("frame", frame).member("text", shown.sentence);
+    if (!shown.bytes.empty()) {
+      json_.member("bytes", shown.bytes).key("fields").begin_array();
+      for (const ShownField& field : shown.fields) {
+        json_.begin_object().member("label", field.label).member("value", field.value);
+        if (field.marked) json_.member("marked", true);
+        json_.end_object();
+      }
+      json_.end_array();
+    }
     json_.end_object();
   }
 

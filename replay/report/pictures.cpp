@@ -160,7 +160,7 @@ void draw_track(Svg& svg, const StateTrack& track, const std::string& label, con
     // Joined changes stand for a state that went to and fro; where it ended at 0 only their place is drawn.
     const double end = value == 0 ? begin + 1 : axis.x(until);
     const std::uint64_t states = 1U + joined;
-    if (open.states != 0 && begin - open.end < 1 && (end - begin < 1 || open.end - open.begin < 1)) {
+    if (open.states != 0 && begin - open.end < 2 && (end - begin < 2 || open.end - open.begin < 2)) {
       open.end = std::max(open.end, end);
       open.states += states;
       return;

@@ -61,12 +61,13 @@ svg .episode{stroke-width:3;opacity:.45}svg .episode.error{stroke:var(--bad)}svg
 svg .first-fault{stroke:var(--bad);stroke-width:1.6;stroke-dasharray:5 3}svg .first-fault-text{fill:var(--bad);font-weight:650}
 svg .violation-line{stroke:var(--warn);stroke-width:1;stroke-dasharray:2 3}
 svg .curve{fill:none;stroke:var(--accent);stroke-width:1.5;stroke-linejoin:round}
+section{margin-top:72px}td a{overflow-wrap:anywhere}
 .skip{position:absolute;left:-9999px}.skip:focus{left:16px;top:8px;background:var(--paper);padding:4px 10px}
 footer{margin-top:56px;color:var(--soft);font-size:.85rem;border-top:1px solid var(--line);padding-top:8px}
 @media (max-width:640px){body{padding:16px}.pair{grid-template-columns:1fr}}
 @media print{:root{--ink:#000;--soft:#444;--line:#bbb;--paper:#fff;--panel:#f4f4f4;--accent:#003a8c;--bar:#8fa9c4;--bar-ink:#000;--bad:#a01010;--bad-soft:#fdf0ee;--warn:#6d4600;--warn-soft:#fff8e6;--note:#345;--good:#0d5a28;--good-soft:#f0f8f2;--mark:#ffe9a8;--stripe:#fafafa}
 *{-webkit-print-color-adjust:exact;print-color-adjust:exact}
-@page{margin:14mm}body{max-width:none;padding:0;font-size:9.5pt}h2,h3,h4,thead{break-after:avoid}h2{margin-top:26px}figure,tr,.verdict,.figures,.finding{break-inside:avoid}
+@page{margin:14mm}section{break-before:page}body{max-width:none;padding:0;font-size:9.5pt}h2,h3,h4,thead{break-after:avoid}h2{margin-top:26px}figure,tr,.verdict,.figures,.finding{break-inside:avoid}
 nav,.skip,summary,details.long{display:none}details::details-content{content-visibility:visible;display:block}.wide{overflow:visible}.pair{grid-template-columns:1fr 1fr;gap:0 14px}.pair table{font-size:7.5pt}table{font-size:8.5pt}thead th,thead td{font-size:8pt}th,td{padding:2px 5px}.evidence{font-size:7.5pt}}
 )css";
 
