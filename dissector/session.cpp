@@ -2,6 +2,7 @@
 #include "dissector/session.hpp"
 
 #include <bit>
+#include <deque>
 #include <exception>
 #include <map>
 #include <string>
@@ -23,7 +24,7 @@ struct Session {
   Dissection shown;                                                             // as the store gives it back
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> interfaces;  // section and number to dense number
   std::vector<std::string> interface_names;  // by dense number; empty where there is none
-  std::vector<std::pair<BusRef, std::string>> bus_names;
+  std::deque<std::pair<BusRef, std::string>> bus_names;
   std::uint32_t last_number = 0;
   std::int64_t last_offset = -1;
   std::vector<FrameStore::Answer> answers;
@@ -143,18 +144,18 @@ std::span<const FrameStore::Answer> answers_of(std::uint32_t number) {
   return self->answers;
 }
 
-std::uint32_t next_of_node(std::uint32_t number, const NodeRef& node) {
+NextOfNode next_of_node(std::uint32_t number) {
   constexpr std::uint32_t kNear = 256;  // frames looked at
   Session* const self = session().get();
-  if (self == nullptr) return 0;
+  if (self == nullptr) return {};
   for (std::uint32_t next = number + 1; next <= number + kNear && next <= self->last_number; ++next) {
     FrameStore::Found found;
     if (!self->store.get(next, {}, self->pushed, found)) continue;
     for (const Link& link : self->pushed.links) {
-      if (link.kind == LinkKind::kPreviousOfNode && link.frame == number && link.node == node) return next;
+      if (link.kind == LinkKind::kPreviousOfNode && link.frame == number) return {next, link.node};
     }
   }
-  return 0;
+  return {};
 }
 
 const char* bus_text(const BusRef& bus) {

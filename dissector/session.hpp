@@ -24,9 +24,14 @@ struct Visit {
 // entry of the plugin calls it, in any order: the frame is pushed once.
 Visit visit(packet_info* pinfo);
 
-// Frames that answer frame `number`, and the next one of the same node and direction (0: none near).
+// Frames that answer frame `number`.
 std::span<const FrameStore::Answer> answers_of(std::uint32_t number);
-std::uint32_t next_of_node(std::uint32_t number, const NodeRef& node);
+// The next frame of the same node and direction, which names `number` as the one before it; frame 0: none near.
+struct NextOfNode {
+  std::uint32_t frame = 0;
+  NodeRef node;
+};
+NextOfNode next_of_node(std::uint32_t number);
 
 // "ring0"; a CAN bus by its interface's name, else can<N> in the order of appearance. Lives as long as the file.
 const char* bus_text(const BusRef& bus);

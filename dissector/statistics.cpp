@@ -21,6 +21,8 @@ const Visit& frame_of(const void* data) { return *static_cast<const Visit*>(data
 
 // A node of a statistics tree that has children, made on first use.
 int branch(stats_tree* tree, const char* name, int parent) { return tick_stat_node(tree, name, parent, TRUE); }
+// The same, not counted.
+int place(stats_tree* tree, const char* name, int parent) { return increase_stat_node(tree, name, parent, TRUE, 0); }
 void leaf(stats_tree* tree, const char* name, int parent) { tick_stat_node(tree, name, parent, FALSE); }
 // A leaf with count, average, minimum and maximum.
 void measure(stats_tree* tree, const char* name, int parent, double value) {
@@ -147,7 +149,9 @@ tap_packet_status count_handshakes(stats_tree* tree, packet_info* pinfo, epan_di
   for (const Link& link : frame.dissection->links) {
     const bool accepted = link.kind == LinkKind::kAcceptedIn;
     if (!accepted && link.kind != LinkKind::kRequestIn) continue;
-    const int command = branch(tree, handshake_text(pinfo->pool, *frame.dissection, link.node), 0);
+    // A command counts when it is answered.
+    const char* const name = handshake_text(pinfo->pool, *frame.dissection, link.node);
+    const int command = accepted ? place(tree, name, 0) : branch(tree, name, 0);
     measure(tree, accepted ? "Until accepted (ms)" : "Until completed (ms)", command,
             static_cast<double>(link.after_ns) / 1e6);
     any = true;

@@ -68,6 +68,9 @@ Ends ends_text(wmem_allocator_t* pool, const Dissection& dissection) {
   if (dissection.protocol == Protocol::kDevicenet) {
     ends.source = mac_text(pool, dissection, derived_value(dissection, "source"), command);
     ends.destination = mac_text(pool, dissection, derived_value(dissection, "destination"), response);
+    // A Duplicate MAC ID check is for every node of the bus.
+    if (ends.source != nullptr && ends.destination == nullptr)
+      ends.destination = pool_text(pool, bus_text(dissection.bus));
     return ends;
   }
   if (dissection.protocol != Protocol::kRtex || (!command && !response)) return ends;

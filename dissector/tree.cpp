@@ -221,9 +221,6 @@ void draw_time(const Canvas& canvas, proto_tree* tree, int id, DurationNs after_
 void draw_links(const Canvas& canvas) {
   const Dissection& dissection = *canvas.frame->dissection;
   const LinkFields& fields = link_fields(dissection.protocol);
-  const auto draw_next = [&canvas, &fields](proto_tree* tree, const NodeRef& node) {
-    draw_frame_link(canvas, tree, fields.next_in, next_of_node(canvas.frame->number, node));
-  };
   for (const Link& link : dissection.links) {
     proto_tree* const tree = tree_of(canvas, link.node);
     switch (link.kind) {
@@ -236,7 +233,6 @@ void draw_links(const Canvas& canvas) {
         break;
       case LinkKind::kPreviousOfNode:
         draw_frame_link(canvas, tree, fields.previous_in, link.frame);
-        if (canvas.pinfo->fd->visited) draw_next(tree, link.node);
         break;
       case LinkKind::kFirstFragment:
         draw_frame_link(canvas, tree, fields.first_fragment, link.frame);
@@ -245,6 +241,11 @@ void draw_links(const Canvas& canvas) {
         draw_frame_link(canvas, tree, fields.fragment, link.frame);
         break;
     }
+  }
+  // Known once the frames behind it were read, and sought only where somebody looks.
+  if (canvas.pinfo->fd->visited && proto_field_is_referenced(canvas.tree, fields.next_in)) {
+    const NextOfNode next = next_of_node(canvas.frame->number);
+    draw_frame_link(canvas, tree_of(canvas, next.node), fields.next_in, next.frame);
   }
   for (const FrameStore::Answer& answer : answers_of(canvas.frame->number)) {
     proto_tree* const tree = tree_of(canvas, answer.node);
@@ -399,8 +400,10 @@ void draw(packet_info* pinfo, proto_tree* tree, const Visit& frame) {
   if (tree != nullptr) {
     const Bytes reassembled = frame.dissection->reassembled;
     if (!reassembled.empty()) {
+      // A copy that lives as long as what is drawn here: a window of this packet outlasts a reload, the store does not.
       const auto size = static_cast<std::uint32_t>(reassembled.size());
-      canvas.reassembled = tvb_new_child_real_data(frame.tvb, reassembled.data(), size, static_cast<int>(size));
+      const auto* const copy = static_cast<const std::uint8_t*>(wmem_memdup(pinfo->pool, reassembled.data(), size));
+      canvas.reassembled = tvb_new_child_real_data(frame.tvb, copy, size, static_cast<int>(size));
       add_new_data_source(pinfo, canvas.reassembled, "Reassembled message");
     }
     draw_protocols(canvas);

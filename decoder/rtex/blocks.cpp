@@ -87,6 +87,7 @@ void Engine::push_command(const Context& context, Node& node, Bytes block, std::
     scene.channel = &channel;
     if (!command.is_nop()) run(scene, kActiveCommand);
     step_command(scene, channel);
+    show_handshake(scene);
   }
   scene.channel = nullptr;
   count_command(scene);

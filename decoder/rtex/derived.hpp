@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What no single RTEX frame holds: how long a non-cyclic command took (SX-DSV02203 3-3-4), and the strings of the
-// system ID, four characters an answer (6-4).
+// What no single RTEX frame holds: how far a non-cyclic command is and how long it took (SX-DSV02203 3-3-4), and the
+// strings of the system ID, four characters an answer (6-4).
 #pragma once
 
 #include "decoder/rtex/row.hpp"
@@ -22,6 +22,15 @@ inline constexpr Field kCompletionTimeField{
     .unit = Unit::kNanosecond,
     .section = "SX-DSV02203 3-3-4",
     .explanation = "from the first command of this code to the answer with its arguments and Busy = 0"};
+
+// Of a command block that holds a non-cyclic command.
+inline constexpr ValueName kHandshakeNames[] = {{1, "waiting for echo"}, {2, "in process"}};
+inline constexpr Field kHandshakeField{.key = "handshake",
+                                       .label = "Handshake",
+                                       .width = 8,
+                                       .values = kHandshakeNames,
+                                       .section = "SX-DSV02203 3-3-4",
+                                       .explanation = "how far the drive is with the non-cyclic command held"};
 
 // A string of the system ID: its new Type_Code and the name of what it says.
 struct SystemIdRow {

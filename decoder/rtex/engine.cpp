@@ -189,7 +189,9 @@ void Engine::push(const Context& context, const RecordPlace& place) {
     if (order == Order::kNext) collect_rest(context, header, record);
   }
   if (order == Order::kDuplicate) return;
+  if (context.dissection != nullptr) link_previous(context, header.response);
   if (header.response) {
+    ring_.last_response_time_ns = context.frame.time_ns;
     ring_.last_response_frame = context.frame.number;
     if (!ring_.running && answered && ring_.cycle_has_command && !ring_.awaiting_start)
       ring_.running = ring_.had_run = true;
@@ -226,6 +228,17 @@ bool Engine::push_blocks(const Context& context, const RecordPlace& place, const
     at += static_cast<std::uint32_t>(size);
   }
   return answered;
+}
+
+// Every axis has its block in each record: the record before is the frame before of all of them.
+void Engine::link_previous(const Context& context, bool response) {
+  const std::uint64_t frame = response ? ring_.last_response_frame : ring_.last_command.frame;
+  if (frame == 0) return;
+  const TimeNs time_ns = response ? ring_.last_response_time_ns : ring_.last_command.time_ns;
+  context.dissection->links.push_back({.kind = LinkKind::kPreviousOfNode,
+                                       .frame = frame,
+                                       .after_ns = elapsed_ns(time_ns, context.frame.time_ns),
+                                       .node = NodeRef{.bus = ring_.bus, .protocol = Protocol::kRtex}});
 }
 
 void Engine::decode(const Context& context, const Node& node, Bytes block, std::uint32_t block_at, BlockSize size,

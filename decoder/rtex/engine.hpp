@@ -56,6 +56,7 @@ class Engine {
   void push_command(const Context& context, Node& node, Bytes block, std::uint32_t block_at, BlockSize size);
   void push_response(const Context& context, Node& node, Bytes block, std::uint32_t block_at, BlockSize size);
   void name_node(Node& node, std::uint8_t mac_id, bool actual);
+  void link_previous(const Context& context, bool response);
   void decode(const Context& context, const Node& node, Bytes block, std::uint32_t block_at, BlockSize size,
               bool response);
 

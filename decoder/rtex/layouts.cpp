@@ -122,8 +122,8 @@ constexpr auto kAll = [] {
 }();
 
 constexpr auto kDerived = [] {
-  std::array<const Field*, 2 + kSystemIdCount> all{&kEchoTimeField, &kCompletionTimeField};
-  for (std::size_t i = 0; i < kSystemIdCount; ++i) all[2 + i] = &kSystemIds[i].field;
+  std::array<const Field*, 3 + kSystemIdCount> all{&kEchoTimeField, &kCompletionTimeField, &kHandshakeField};
+  for (std::size_t i = 0; i < kSystemIdCount; ++i) all[3 + i] = &kSystemIds[i].field;
   return all;
 }();
 

@@ -318,6 +318,7 @@ struct Ring {
   Moment last_command;                // record
   bool last_command_follows = false;  // no gap between the last command record and the one before it
   std::uint64_t last_response_frame = 0;
+  TimeNs last_response_time_ns = 0;
   bool shared_carrier = false;  // Ethernet or UDP: the time is the recorder's
   std::uint32_t time_resolution_ns = 1;
 

@@ -133,6 +133,12 @@ void track_command(Scene& scene) {
   if (node.servo_on_known && node.servo_on_sent != command.servo_on) node.servo_change_cycle = scene.now.cycle;
 }
 
+void show_handshake(Scene& scene) {
+  const Handshake state = scene.channel->state;
+  if (state == Handshake::kSent) show(scene, kHandshakeField, 1);
+  if (state == Handshake::kBusy) show(scene, kHandshakeField, 2);
+}
+
 void track_answer(Scene& scene, bool completed) {
   Node& node = *scene.node;
   const CommandPart& part = scene.channel->hold.part;

@@ -11,6 +11,8 @@ void watch_command(Scene& scene);
 void watch_following(Scene& scene);
 // After the checks of a command block.
 void track_command(Scene& scene);
+// After a channel's handshake took a command block: shows how far its command is.
+void show_handshake(Scene& scene);
 // After the checks of an answer of scene.channel; `completed`: the first complete answer of the held command.
 void track_answer(Scene& scene, bool completed);
 // An answer of the alarm command: gives RX902 and RX903 the code they were said without (checks_report.cpp).

@@ -169,6 +169,43 @@ TEST(Answers, DriverTypeAndAHole) {
   EXPECT_EQ(value_of("driver_type"), "101111");
 }
 
+// Commands and responses alternate, 0.5 ms a cycle: the one before is two frames back.
+TEST(Answers, EachRecordNamesTheOneBefore) {
+  Bench bench;
+  std::size_t links = 0;
+  bench.on_frame = [&links](std::uint64_t frame, const Dissection& dissection) {
+    for (const Link& link : dissection.links) {
+      if (link.kind != LinkKind::kPreviousOfNode) continue;
+      EXPECT_EQ(link.frame, frame - 2);
+      EXPECT_EQ(link.after_ns, 500'000);
+      EXPECT_EQ(link.node.mac_id, kNoMacId);
+      ++links;
+    }
+  };
+  bench.cycles(4);
+  EXPECT_EQ(links, 2U * 4U - 2U);
+}
+
+// SX-DSV02203 3-3-4: sent, not yet echoed; echoed with Busy = 1; then nothing is waited for.
+TEST(Answers, CommandsSayHowFarTheirHandshakeIs) {
+  Bench bench;
+  bench.cycles(5);
+  std::vector<std::int64_t> shown;
+  bench.on_frame = [&shown](std::uint64_t, const Dissection& dissection) {
+    for (const Derived& entry : dissection.derived) {
+      if (entry.field->key == "handshake") shown.push_back(entry.value);
+    }
+  };
+  bench.at(0).busy = true;
+  bench.non_cyclic(0, 6, 0x010, 0x0008);
+  bench.cycles(5);
+  bench.at(0).busy = false;
+  bench.cycles(3);
+  bench.normal();
+  bench.cycles(5);
+  EXPECT_EQ(shown, (std::vector<std::int64_t>{1, 1, 1, 2, 2, 2}));
+}
+
 TEST(Answers, CommandsAreLinkedToEchoAndAnswer) {
   Bench bench;
   bench.cycles(5);
@@ -177,6 +214,7 @@ TEST(Answers, CommandsAreLinkedToEchoAndAnswer) {
   std::vector<std::int64_t> times;
   bench.on_frame = [&](std::uint64_t frame, const Dissection& dissection) {
     for (const Link& link : dissection.links) {
+      if (link.kind == LinkKind::kPreviousOfNode) continue;
       EXPECT_EQ(link.frame, command);
       links.emplace_back(link.kind, frame);
     }

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+#include "decoder/render/words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "decoder/render/node.hpp"
+#include "decoder/render/value.hpp"
+
+namespace servotrace {
+namespace {
+
+// Numbers without names that are worth a word, and the word. Every other one is left to the fields.
+struct Spoken {
+  std::string_view key;
+  std::string_view word;
+};
+constexpr Spoken kSpoken[] = {
+    {"alarm_main_echo", "alarm"}, {"alarm_main", "alarm"},    {"class", "class"},
+    {"instance", "instance"},     {"attribute", "attribute"}, {"service", "service"},
+    {"general_status", "status"}, {"vendor_id", "vendor"},    {"serial_number", "serial"},
+};
+// The same, where they are not 0.
+constexpr Spoken kSpokenUnlessZero[] = {
+    {"block_number", "block"},
+    {"executing_block_number", "block"},
+    {"prg", "channel"},
+    {"ack_prg", "channel"},
+};
+// Said by the node's name or by other words, or of no interest in a sentence.
+constexpr std::string_view kSilent[] = {
+    "mac_id",        "cr",         "sub_chk",      "fragmented",      "xid",        "master",
+    "physical_port", "response",   "command_axis", "response_axis",   "dir",        "prm_ope",
+    "prm_set_no",    "prm_get_no", "latch_sel1",   "latch_sel1_echo", "latch_sel2", "latch_sel2_echo",
+    "alarm_sub_echo"};
+
+template <std::size_t N>
+std::string_view word_of(const Spoken (&rows)[N], std::string_view key) {
+  for (const Spoken& row : rows) {
+    if (row.key == key) return row.word;
+  }
+  return {};
+}
+
+}  // namespace
+
+bool same_letters(std::string_view left, std::string_view right) {
+  return left.size() == right.size() && std::equal(left.begin(), left.end(), right.begin(), [](char a, char b) {
+           return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
+         });
+}
+
+void join(std::string& text, std::string_view separator, std::string_view part) {
+  if (part.empty()) return;
+  if (!text.empty()) text += separator;
+  text += part;
+}
+
+std::string name_text(const NodeRef& node, const Settings* settings) {
+  return node_text(node, settings == nullptr ? std::string_view() : configured_name(*settings, node));
+}
+
+bool is_abbreviation(std::string_view word) {
+  return !word.empty() && word.size() <= 10 && std::all_of(word.begin(), word.end(), [](char c) {
+    return (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '/' || c == '-';
+  });
+}
+
+std::string_view short_label(std::string_view label) {
+  const std::size_t open = label.find(" (");
+  if (open == std::string_view::npos) return label;
+  const std::string_view outside = label.substr(0, open);
+  if (is_abbreviation(outside)) return outside;
+  const std::size_t close = label.find(')', open);
+  if (close == std::string_view::npos) return label;
+  const std::string_view inside = label.substr(open + 2, close - open - 2);
+  return is_abbreviation(inside) ? inside : outside;
+}
+
+std::string quantity_text(const Field& field, std::int64_t raw) {
+  if (field.unit == Unit::kTenthPercent) return scaled_text(raw, {1, 10}, 1) + " %";
+  const std::string_view unit = field.unit == Unit::kCommandUnit ? std::string_view() : symbol(field.unit);
+  return fmt::format("{}{}{}", number_text(field, raw), unit.empty() ? "" : " ", unit);
+}
+
+bool is_flag(const Field& field) { return field.kind == Kind::kBool || field.width == 1; }
+
+std::string field_word(const Field& field, std::int64_t raw, Bytes under) {
+  if (field.reserved || std::find(std::begin(kSilent), std::end(kSilent), field.key) != std::end(kSilent)) return {};
+  if (slot_of(field).width == 0) {
+    return field.kind == Kind::kText && !under.empty()
+               ? fmt::format("{} {}", short_label(field.label), bytes_text(field, under))
+               : std::string();
+  }
+  const ValueName* const name = find_value(field.values, raw);
+  if (field.role == Role::kSignal) return fmt::format("{} {}", short_label(field.label), quantity_text(field, raw));
+  if (is_flag(field)) {
+    if (raw == 0) return {};
+    const std::string_view label = short_label(field.label);
+    if (name == nullptr) return std::string(label);
+    // "servo on" says what "Enable" is about, "successful" not what "PRM_STS" is.
+    return is_abbreviation(label) ? fmt::format("{} {}", label, name->name) : std::string(name->name);
+  }
+  if (name != nullptr) return name->name == "Normal" ? std::string() : std::string(name->name);
+  if (const std::string_view word = word_of(kSpoken, field.key); !word.empty())
+    return fmt::format("{} {}", word, value_text(field, raw));
+  if (const std::string_view word = word_of(kSpokenUnlessZero, field.key); !word.empty() && raw != 0)
+    return fmt::format("{} {}", word, value_text(field, raw));
+  return {};
+}
+
+std::string lone_quantity(const Segment& segment, Bytes bytes) {
+  if (segment.layout->fields.size() != 1) return {};
+  const Field& field = segment.layout->fields[0];
+  if (slot_of(field).width == 0 || field.unit == Unit::kNone || field.role == Role::kSignal || !field.values.empty())
+    return {};
+  return fmt::format("{} {}", short_label(field.label), value_text(field, read(slot_of(field), bytes)));
+}
+
+std::string segment_words(const Segment& segment, Bytes bytes) {
+  if (std::string quantity = lone_quantity(segment, bytes); !quantity.empty()) return quantity;
+  std::string words;
+  std::string flags;
+  for_each_field(*segment.layout, bytes, [&](const Field& field, std::int64_t raw, Bytes under) {
+    const std::string word = field_word(field, raw, under);
+    if (is_flag(field)) {
+      join(flags, is_abbreviation(word.substr(0, word.find(' '))) ? " " : ", ", word);
+    } else {
+      join(words, ", ", word);
+    }
+  });
+  join(words, ", ", flags);
+  return words;
+}
+
+const Derived* find_derived(const Dissection& dissection, std::string_view key) {
+  for (const Derived& entry : dissection.derived) {
+    if (entry.field->key == key) return &entry;
+  }
+  return nullptr;
+}
+
+}  // namespace servotrace
