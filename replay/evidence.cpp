@@ -10,18 +10,6 @@
 namespace servotrace::replay {
 namespace {
 
-// A frame nothing was recognised in (a malformed record) shows its first bytes.
-std::string words(const RawFrame& frame, const Dissection& dissection, const NodeRef& node, const Settings& settings) {
-  std::string text = sentence_of(dissection, node, &settings);
-  if (!text.empty()) return text;
-  constexpr std::size_t kMostBytes = 32;
-  text = fmt::format("{} bytes:", frame.bytes.size());
-  for (const std::uint8_t byte : frame.bytes.first(std::min(frame.bytes.size(), kMostBytes))) {
-    text += fmt::format(" {:02X}", byte);
-  }
-  return frame.bytes.size() > kMostBytes ? text + " ..." : text;
-}
-
 // One line wanted: `frame` as finding `finding` needs it.
 struct Wanted {
   std::uint64_t frame = 0;
@@ -42,7 +30,7 @@ class SecondLook : public FrameVisitor {
     for (; dissection != nullptr && next_ < wanted_.size() && wanted_[next_].frame == frame.number; ++next_) {
       const std::size_t index = wanted_[next_].finding;
       capture_.findings[index].evidence.push_back(
-          {frame.number, frame.time_ns, words(frame, *dissection, findings_[index].node, settings_)});
+          {frame.number, frame.time_ns, frame_words(frame, *dissection, findings_[index].node, settings_)});
     }
     return next_ < wanted_.size();
   }
@@ -56,6 +44,18 @@ class SecondLook : public FrameVisitor {
 };
 
 }  // namespace
+
+std::string frame_words(const RawFrame& frame, const Dissection& dissection, const NodeRef& node,
+                        const Settings& settings) {
+  std::string text = sentence_of(dissection, node, &settings);
+  if (!text.empty()) return text;
+  constexpr std::size_t kMostBytes = 32;
+  text = fmt::format("{} bytes:", frame.bytes.size());
+  for (const std::uint8_t byte : frame.bytes.first(std::min(frame.bytes.size(), kMostBytes))) {
+    text += fmt::format(" {:02X}", byte);
+  }
+  return frame.bytes.size() > kMostBytes ? text + " ..." : text;
+}
 
 void add_evidence(const CaptureInput& input, const Settings& settings, std::span<const Finding> findings,
                   CaptureRecord& capture) {
@@ -80,8 +80,8 @@ bool StreamEvidence::on_frame(const RawFrame& frame, const Dissection* dissectio
                               const Source&) {
   for (const Finding& finding : pipeline.fresh()) {
     if (lines_.size() >= kMostEvidence || dissection == nullptr) break;
-    lines_.try_emplace(key(finding),
-                       EvidenceLine{frame.number, frame.time_ns, words(frame, *dissection, finding.node, settings_)});
+    lines_.try_emplace(key(finding), EvidenceLine{frame.number, frame.time_ns,
+                                                  frame_words(frame, *dissection, finding.node, settings_)});
   }
   return true;
 }

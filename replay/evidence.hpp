@@ -13,6 +13,10 @@ namespace servotrace::replay {
 // Of the first kMostEvidence findings of a capture; more would be no help to anybody.
 inline constexpr std::size_t kMostEvidence = 500;
 
+// What a frame says about a node; the first bytes where nothing was recognised in it (a malformed record).
+std::string frame_words(const RawFrame& frame, const Dissection& dissection, const NodeRef& node,
+                        const Settings& settings);
+
 // Fills FindingRecord::evidence of `capture`, whose findings[i] was made of findings[i].
 void add_evidence(const CaptureInput& input, const Settings& settings, std::span<const Finding> findings,
                   CaptureRecord& capture);

@@ -14,7 +14,8 @@
 namespace servotrace::replay {
 
 int run_explain(const Arguments& arguments) {
-  CLI::App app("A rule's page: what, why, fix, manual section.", "servotrace explain");
+  CLI::App app("A rule's page: what, why, fix, manual section, traces that violate it and that do not.",
+               "servotrace explain");
   std::vector<std::string> names;
   app.add_option("RULE", names, "Ids (RX201), slugs (update-counter-stuck) or prefixes (RX2)")->required();
   app.footer("Examples:\n  servotrace explain RX201\n  servotrace explain update-counter-stuck");

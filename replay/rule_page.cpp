@@ -6,12 +6,26 @@
 #include <algorithm>
 
 #include "decoder/render/message.hpp"
+#include "replay/examples/rule_examples.hpp"
 
 namespace servotrace::replay {
 namespace {
 
 std::string part(std::string_view title, std::string_view text, const Style& style) {
   return fmt::format("\n{}{}{}\n{}", style.bold(), title, style.reset(), wrapped(text, 4));
+}
+
+// A trace as `check` and `decode --brief` print it.
+std::string part_of(std::string_view title, const Example& example, const Style& style) {
+  if (example.scenario.empty()) return "";
+  std::string text = fmt::format("\n{}{}{}\n    {} (captures/scenarios/{}.toml)\n", style.bold(), title, style.reset(),
+                                 example.title, example.scenario);
+  for (std::string_view rest = example.trace; !rest.empty();) {
+    const std::size_t end = std::min(rest.find('\n'), rest.size() - 1) + 1;
+    text += fmt::format("    {}", rest.substr(0, end));
+    rest.remove_prefix(end);
+  }
+  return text;
 }
 
 }  // namespace
@@ -70,6 +84,10 @@ std::string rule_page(const Rule& row, const Style& style) {
   if (row.needs_every_cycle) how += "; silent on sampled records, which do not show every cycle";
   if (row.hosts == Hosts::kOfflineOnly) how += "; in the command line only, a dissector does not see what shows it";
   text += part("How it is reported", how, style);
+  if (const RuleExamples* const examples = find_examples(row.id)) {
+    text += part_of("A trace that violates it", examples->violation, style);
+    text += part_of("A trace that does not", examples->silent, style);
+  }
   text += fmt::format("\n{}Leave it out{}\n    --ignore {}, or in servotrace.toml:  [rules] ignore = [\"{}\"]\n",
                       style.bold(), style.reset(), row.id, row.id);
   return text;
