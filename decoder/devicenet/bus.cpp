@@ -129,6 +129,7 @@ void Bus::gap() {
     poll.awaiting = false;
     poll.has_command = false;
     poll.polled = false;
+    poll.last_interval_ns = -1;
     poll.watched = false;
     poll.guess_commands = 0;
     poll.guess_responses = 0;

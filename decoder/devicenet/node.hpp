@@ -91,6 +91,8 @@ struct PollConnection {
   std::uint8_t guess_commands = 0;  // whole fragmented messages of the size a guess asks for, in a row
   std::uint8_t guess_responses = 0;
   Durations interval;
+  Durations interval_change;  // from one interval to the next
+  DurationNs last_interval_ns = -1;
   Durations answer;
 };
 

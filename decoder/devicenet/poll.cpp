@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The poll connection: commands and responses, their fragments, their watchdog, and the drive they belong to.
 #include <algorithm>
+#include <cstdlib>
 
 #include "decoder/devicenet/bus.hpp"
 #include "decoder/devicenet/derived.hpp"
@@ -200,6 +201,10 @@ void Bus::poll_begins(const Arrival& arrival, Node& node) {
   if (poll.polled) {
     const DurationNs interval = elapsed_ns(poll.polled_time_ns, arrival.now_ns());
     poll.interval.add(interval);
+    if (poll.last_interval_ns >= 0 && interval >= 0) {
+      poll.interval_change.add(std::abs(interval - poll.last_interval_ns));
+    }
+    poll.last_interval_ns = interval;
     derive(dissection, kPollIntervalField, interval, node.ref);
     if (dissection != nullptr) {
       dissection->links.push_back(

@@ -39,6 +39,22 @@ void add_fact(NodeSummary& summary, std::string_view key, const std::optional<Le
   if (learnt) add_fact(summary, key, std::to_string(learnt->value), learnt->frame);
 }
 
+// Bus load in percent, stuff bits not counted. The bit rate is known only where a node's DeviceNet object was read:
+// else the load at each of the three there are.
+void add_bus_load(BusSummary& summary, std::int64_t rate, std::uint64_t bits, DurationNs span_ns) {
+  static constexpr std::int64_t kKilobits[] = {125, 250, 500};
+  if (span_ns <= 0) return;
+  for (std::int64_t i = 0; i < 3; ++i) {
+    if (rate >= 0 && i != rate) continue;
+    const double used_ms = static_cast<double>(bits) / static_cast<double>(kKilobits[i]);
+    const auto tenths = static_cast<std::int64_t>(used_ms * 1e9 / static_cast<double>(span_ns) + 0.5);
+    std::string key = "bus_load_percent";
+    if (rate < 0) key += "_at_" + std::to_string(kKilobits[i]) + "k";
+    summary.facts.push_back(
+        {.key = std::move(key), .value = std::to_string(tenths / 10) + "." + std::to_string(tenths % 10), .basis = {}});
+  }
+}
+
 }  // namespace
 
 void Bus::summarise(BusSummary& summary) const {
@@ -84,18 +100,12 @@ void Bus::summarise(BusSummary& summary) const {
     add_fact(row, "identity_vendor", node.identity_vendor);
     add_fact(row, "identity_product", node.identity_product);
     append_statistic(summary.statistics, "poll interval", node.ref, node.poll.interval);
+    append_statistic(summary.statistics, "poll jitter", node.ref, node.poll.interval_change);
     append_statistic(summary.statistics, "poll response", node.ref, node.poll.answer);
     append_statistic(summary.statistics, "explicit response", node.ref, node.explicit_answer);
     if (node.session) node.session->summarise(row, summary.statistics);
   }
-  // The bit rate is known only where a node's DeviceNet object was read.
-  static constexpr std::int64_t kBitRates[] = {125'000, 250'000, 500'000};
-  const DurationNs span = elapsed_ns(begin_ns_, last_ns_);
-  if (rate < 0 || span <= 0) return;
-  const double used = static_cast<double>(bits_) / static_cast<double>(kBitRates[rate]);
-  summary.facts.push_back({.key = "bus_load_percent",
-                           .value = std::to_string(static_cast<std::int64_t>(used * 1e11 / static_cast<double>(span))),
-                           .basis = {BasisKind::kCapture, 0}});
+  add_bus_load(summary, rate, bits_, elapsed_ns(begin_ns_, last_ns_));
 }
 
 }  // namespace servotrace::devicenet

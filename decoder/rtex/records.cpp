@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The order of records, the communication cycle, and when a ring runs: CP103, RX108 (whole ring), RX111, RX112, RX115.
+#include <cstdlib>
+
 #include "decoder/pipeline/rules.hpp"
 #include "decoder/rtex/engine.hpp"
 
@@ -221,6 +223,7 @@ void Engine::take_command_record(const Context& context, const RecordHeader& hea
   if (timed && ring_.last_command_follows) {
     const DurationNs interval = elapsed_ns(ring_.last_command.time_ns, context.frame.time_ns);
     ring_.cycle_times.add(interval);
+    if (ring_.cycle_ns && interval >= 0) ring_.cycle_deviations.add(std::abs(interval - ring_.cycle_ns.value));
     if (!ring_.cycle_ns) {
       if (ring_.intervals == 0) ring_.first_interval_time = ring_.last_command.time_ns;
       if (++ring_.intervals == kMeasuredIntervals) {

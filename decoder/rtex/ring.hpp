@@ -353,6 +353,7 @@ struct Ring {
   SmallVector<Judged, 16> judged;  // the latest faults of the whole ring
   std::array<std::unique_ptr<Node>, kMaxNodes> nodes;
   Durations cycle_times;
+  Durations cycle_deviations;  // each interval against the communication cycle, once that is known
 
   unsigned awake = 0;         // blocks of this record judged in full
   bool record_quiet = false;  // the rules of the last command record passed, of blocks that are all quiet or as before

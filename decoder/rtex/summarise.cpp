@@ -62,8 +62,9 @@ void Engine::summarise(BusSummary& summary) const {
     summary.facts.push_back({"sync", ring_.full_sync.value == 1 ? "full" : "semi", ring_.full_sync.basis});
   if (ring_.lag_decided && ring_.lag >= 0)
     summary.facts.push_back({"echo_lag", std::to_string(ring_.lag), {BasisKind::kCapture, ring_.lag_frame}});
-  append_statistic(summary.statistics, "cycle", NodeRef{.bus = ring_.bus, .protocol = Protocol::kRtex},
-                   ring_.cycle_times);
+  const NodeRef whole{.bus = ring_.bus, .protocol = Protocol::kRtex};
+  append_statistic(summary.statistics, "cycle", whole, ring_.cycle_times);
+  append_statistic(summary.statistics, "cycle jitter", whole, ring_.cycle_deviations);
   for (const auto& node : ring_.nodes) {
     if (node != nullptr) summarise_node(ring_, *node, summary);
   }
