@@ -118,7 +118,7 @@ Result<void> BaselineKeeper::open(const std::string& read_from, const std::strin
   return {};
 }
 
-void BaselineKeeper::apply(CaptureRecord& capture, const Selection& selection) {
+void BaselineKeeper::apply(CaptureRecord& capture, const Selection& selection, std::uint32_t most) {
   if (read_from_.empty() && file_ == nullptr) return;
   std::vector<FindingRecord> rest;
   for (FindingRecord& finding : capture.findings) {
@@ -133,6 +133,8 @@ void BaselineKeeper::apply(CaptureRecord& capture, const Selection& selection) {
       if (rule.rule == finding.rule && rule.findings != 0) --rule.findings;
     }
   }
+  std::map<Baseline::Key, std::uint32_t> kept;
+  std::erase_if(rest, [&](const FindingRecord& finding) { return ++kept[Baseline::key(finding)] > most; });
   capture.findings = std::move(rest);
   capture.status = selection.status(capture);
 }

@@ -33,15 +33,15 @@ class Baseline {
   // A line for every entry with room left: the baseline can shrink.
   std::vector<std::string> leftovers() const;
 
- private:
   // Rule, bus, protocol, MAC ID (-1: none), channel.
   using Key = std::tuple<std::string, std::string, std::string, int, std::string>;
+  static Key key(const FindingRecord& finding);
+
+ private:
   struct Count {
     std::uint64_t accepted = 0;
     std::uint64_t found = 0;
   };
-  static Key key(const FindingRecord& finding);
-
   std::map<Key, Count> counts_;
 };
 
@@ -51,7 +51,8 @@ class BaselineKeeper {
   // Reads the one, makes sure that the other can be written. Empty names: none.
   Result<void> open(const std::string& read_from, const std::string& write_to);
   // Takes out of the capture what is accepted; everything is where a baseline is written.
-  void apply(CaptureRecord& capture, const Selection& selection);
+  // Of what is left, at most `most` findings a rule and node stay in the list; the counts hold them all.
+  void apply(CaptureRecord& capture, const Selection& selection, std::uint32_t most);
   // Writes the new one; says on standard error where the old one can shrink.
   Result<void> finish();
 

@@ -6,10 +6,8 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "decoder/render/sentence.hpp"
-#include "decoder/render/value.hpp"
 #include "replay/baseline.hpp"
-#include "replay/capture/live.hpp"
+#include "replay/check_live.hpp"
 #include "replay/commands.hpp"
 #include "replay/evidence.hpp"
 #include "replay/exit_status.hpp"
@@ -21,6 +19,8 @@
 
 namespace servotrace::replay {
 namespace {
+
+constexpr std::uint32_t kMostCounted = 1'000'000;  // findings a rule and node that a baseline can tell apart
 
 struct CheckOptions {
   std::vector<std::string> captures;
@@ -35,15 +35,10 @@ struct CheckOptions {
   std::string colour = "auto";
   std::string progress = "auto";
   unsigned jobs = 1;
+  std::uint32_t max_findings = 100;
   bool allow_empty = false;
   bool join = false;
-};
-
-// A capture judged, and what its suppressions did.
-struct Checked {
-  CaptureRecord record;
-  RuleFilter filter;
-  bool stopped = false;
+  bool statistics = false;
 };
 
 // Says how many bytes of a source were read, as they are.
@@ -61,46 +56,6 @@ class Meter {
   std::uint64_t last_ = 0;
 };
 
-// Findings of a live capture, as they happen.
-class LiveText : public FrameVisitor {
- public:
-  LiveText(std::string name, const FileSettings& settings, const Selection& selection, Style style)
-      : name_(std::move(name)),
-        settings_(settings),
-        selection_(selection),
-        filter_(selection.filter(settings.rules)),
-        style_(style) {}
-
-  bool on_frame(const RawFrame& frame, const Dissection* dissection, const Pipeline& pipeline,
-                const Source& source) override {
-    const std::span<const Finding> fresh = pipeline.fresh();
-    if (fresh.empty()) return true;
-    CaptureResult names;
-    names.name = name_;
-    names.summary = pipeline.summary();
-    names.buses = BusNames(names.summary, source.interfaces());
-    for (Finding finding : fresh) {
-      if (!selection_.is_of_actor(finding.actor) || !filter_.apply(finding)) continue;
-      const FindingRecord record = make_record(finding, names, settings_.decoder);
-      const std::string who = record.node.text();
-      fmt::print(stderr, "{} {}[{}] {}{}{}\n", time_text(frame.time_ns), name_of(record.severity), record.row().id, who,
-                 who.empty() ? "" : ": ", record.message);
-      if (dissection != nullptr) {
-        fmt::print(stderr, "  {}{}{}\n", style_.dim(), sentence_of(*dissection, finding.node, &settings_.decoder),
-                   style_.reset());
-      }
-    }
-    return true;
-  }
-
- private:
-  std::string name_;
-  const FileSettings& settings_;
-  const Selection& selection_;
-  RuleFilter filter_;
-  Style style_;
-};
-
 Checked check_file(const CaptureInput& input, const FileSettings& settings, const Selection& selection,
                    bool wants_evidence, Progress& progress) {
   Checked checked{.record = {}, .filter = selection.filter(settings.rules)};
@@ -116,20 +71,6 @@ Checked check_file(const CaptureInput& input, const FileSettings& settings, cons
   } else {
     add_evidence(input, settings.decoder, result.findings, checked.record);
   }
-  return checked;
-}
-
-Result<Checked> check_live(const std::string& interface, const FileSettings& settings, const Selection& selection,
-                           Style style) {
-  Result<std::unique_ptr<LiveSource>> source = open_live({.interface = interface, .filter = {}});
-  if (!source) return source.error();
-  stop_on_interrupt(source->get());
-  LiveText text(interface, settings, selection, style);
-  CaptureResult result =
-      run(**source, interface, settings.decoder, {.visitor = &text, .stop = &interrupted(), .on_progress = {}});
-  stop_on_interrupt(nullptr);
-  Checked checked{.record = {}, .filter = selection.filter(settings.rules)};
-  checked.record = judge(result, settings, selection, checked.filter);
   return checked;
 }
 
@@ -199,7 +140,8 @@ int check(const CheckOptions& options, CaptureOptions& capture_options) {
     return kExitFailed;
   }
   Result<Targets> targets =
-      Targets::open(options.outputs, "text", {.style = ready->style, .fail_on = selection.fail_on()});
+      Targets::open(options.outputs, "text",
+                    {.style = ready->style, .fail_on = selection.fail_on(), .statistics = options.statistics});
   if (!targets) {
     complain(targets.error());
     return kExitFailed;
@@ -219,7 +161,7 @@ int check(const CheckOptions& options, CaptureOptions& capture_options) {
     progress.clear();
     if (!checked.record.error.empty()) complain(checked.record.error);
     suppressions.add(checked.filter);
-    baseline.apply(checked.record, selection);
+    baseline.apply(checked.record, selection, options.max_findings);
     totals.add(checked.record);
     targets->capture(checked.record);
     return true;
@@ -242,7 +184,7 @@ int check(const CheckOptions& options, CaptureOptions& capture_options) {
   }
   progress.clear();
   if (stopped) {
-    complain("interrupted: nothing was written");
+    complain("interrupted: the results are not complete, no file was written");
     return kExitFailed;
   }
   suppressions.complain_of_leftovers();
@@ -287,7 +229,7 @@ int run_check(const Arguments& arguments) {
       ->type_name("FILE");
   app.add_option("--write-baseline", options.write_baseline, "Accept today's findings and count them into this file")
       ->type_name("FILE");
-  app.add_option("--max-findings", capture_options.max_findings, "Findings kept for each rule and node")
+  app.add_option("--max-findings", options.max_findings, "Findings kept for each rule and node")
       ->type_name("N")
       ->check(CLI::Range(1U, 1'000'000'000U))
       ->capture_default_str();
@@ -298,6 +240,8 @@ int run_check(const Arguments& arguments) {
   app.add_option("--color", options.colour, "auto, always or never")->type_name("WHEN")->capture_default_str();
   app.add_option("--progress", options.progress, "auto, always or never")->type_name("WHEN")->capture_default_str();
   app.add_flag("--join", options.join, "Take all files for parts of one recording, merged by time");
+  app.add_flag("--statistics", options.statistics,
+               "In text: how often each rule was looked at, and what was measured (the other formats always tell)");
   app.add_flag("--allow-empty", options.allow_empty, "Exit with 0 where nothing was checked");
   app.footer(
       "Exit status: 0 nothing at or above --fail-on, 1 findings, 2 could not do the job, 3 nothing was checked.\n\n"
@@ -307,6 +251,9 @@ int run_check(const Arguments& arguments) {
       "  servotrace check run.pcapng --output text --output sarif=run.sarif\n"
       "  dumpcap -i can0 -w - | servotrace check - --devicenet");
   if (const std::optional<int> status = parse(app, arguments)) return *status;
+  // A baseline counts every finding: those above the limit are left out behind it.
+  const bool counts_all = !options.baseline.empty() || !options.write_baseline.empty();
+  capture_options.max_findings = counts_all ? std::max(options.max_findings, kMostCounted) : options.max_findings;
   return check(options, capture_options);
 }
 

@@ -33,6 +33,10 @@ std::string unknown_words(const CLI::App& app, const std::string& word) {
 
 std::optional<int> parse(CLI::App& app, const Arguments& arguments) {
   app.allow_extras();
+  // "--output sarif=a.sarif run.pcapng": an option that may stand several times takes one word each time.
+  for (CLI::Option* const option : app.get_options()) {
+    if (!option->get_lnames().empty()) option->allow_extra_args(false);
+  }
   try {
     std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());
     app.parse(reversed);

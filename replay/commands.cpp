@@ -10,7 +10,7 @@ constexpr Command kCommands[] = {
     {"report", "the post-mortem report: what failed first, what preceded it", &run_report},
     {"decode", "prints every message, field by field", &run_decode},
     {"info", "what is in a capture: buses, nodes, drives, cycles, learnt settings", &run_info},
-    {"explain", "a rule's page: what, why, fix, manual section", &run_explain},
+    {"explain", "a rule's page: what, why, fix, manual section, examples", &run_explain},
     {"rules", "the catalogue of rules", &run_rules},
     {"convert", "captures and logs to pcapng, RTEX records into another carrier", &run_convert},
     {"simulate", "makes a capture from a scenario", &run_simulate},

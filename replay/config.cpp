@@ -15,6 +15,7 @@
 #include "replay/exit_status.hpp"
 #include "replay/inputs.hpp"
 #include "replay/results.hpp"
+#include "replay/settings/limit_rows.hpp"
 
 namespace servotrace::replay {
 namespace {
@@ -110,16 +111,9 @@ void append_limits(std::string& text) {
     fmt::format_to(std::back_inserter(text), "# {} = {}\n", key, value);
   };
   text += "\n[limits]                              # the defaults\n";
-  line("echo_ms", limits.echo_ms);
-  line("busy_ms", limits.busy_ms);
-  line("busy_long_ms", limits.busy_long_ms);
-  line("communication_errors", limits.communication_errors);
-  line("jitter_percent", limits.jitter_percent);
-  line("timeout_cycles", limits.timeout_cycles);
-  line("servo_on_units", limits.servo_on_units);
-  line("inhibit_units", limits.inhibit_units);
-  line("explicit_response_ms", limits.explicit_response_ms);
-  line("prm_ack_ms", limits.prm_ack_ms);
+  for (const LimitRow& row : kLimitRows) line(row.key, limits.*row.member);
+  fmt::format_to(std::back_inserter(text), "# moving_speed = {}                   # r/min; none where Pr7.25 = 1\n",
+                 kDefaultMovingSpeed);
 }
 
 std::string settings_text(const CaptureRecord& capture) {

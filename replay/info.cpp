@@ -13,6 +13,7 @@
 #include "replay/inputs.hpp"
 #include "replay/output/records.hpp"
 #include "replay/results.hpp"
+#include "replay/statistic_text.hpp"
 
 namespace servotrace::replay {
 namespace {
@@ -30,8 +31,6 @@ std::string basis_text(const Basis& basis) {
   }
   return "";
 }
-
-std::string whole_ns(double value_ns) { return duration_text(static_cast<DurationNs>(value_ns)); }
 
 void append(std::string& text, const CaptureRecord& capture, const CaptureResult& result) {
   const auto to = std::back_inserter(text);
@@ -66,12 +65,9 @@ void append(std::string& text, const CaptureRecord& capture, const CaptureResult
                      basis_text(fact.basis));
     }
   }
-  if (!capture.statistics.empty()) text += "  measured (count, least, mean, 99 % within, most):\n";
+  if (!capture.statistics.empty()) fmt::format_to(to, "  measured ({}):\n", kStatisticColumns);
   for (const StatisticRecord& statistic : capture.statistics) {
-    const Statistic& values = statistic.values;
-    fmt::format_to(to, "    {}{}{}: {}, {}, {}, {}, {}\n", capture.who(statistic.node),
-                   statistic.node.text().empty() ? "" : " ", values.key, values.count, duration_text(values.minimum_ns),
-                   whole_ns(values.mean_ns), duration_text(values.percentile_99_ns), duration_text(values.maximum_ns));
+    fmt::format_to(to, "    {}\n", statistic_text(capture, statistic));
   }
   for (const Finding& finding : result.findings) {
     const std::string_view id = rule_row(finding.rule).id;
@@ -108,7 +104,9 @@ int run_info(const Arguments& arguments) {
   app.add_option("CAPTURE", captures, "Files, folders, or - for standard input")->required();
   capture_options.add_to(app);
   app.add_option("--format", format, "text or jsonl")->check(CLI::IsMember({"text", "jsonl"}))->capture_default_str();
-  app.footer("Exit status: 0 done, 2 could not do the job, 3 no frame of a known bus.");
+  app.footer(
+      "Exit status: 0 done, 2 could not do the job, 3 no frame of a known bus.\n\n"
+      "Examples:\n  servotrace info run.pcapng\n  servotrace info captures/ --format jsonl");
   if (const std::optional<int> status = parse(app, arguments)) return *status;
   const Result<std::vector<CaptureInput>> inputs = expand_inputs(captures);
   if (!inputs) {

@@ -39,6 +39,7 @@ int run_merge(const Arguments& arguments) {
   std::vector<std::string> files;
   std::vector<std::string> outputs;
   std::string fail_on = "error";
+  bool statistics = false;
   app.add_option("RESULT", files, "Results of 'check --output jsonl=FILE'")->required();
   app.add_option("--output", outputs,
                  "Format, or FORMAT=FILE; several times. Formats: " + format_names() + " (default: jsonl)")
@@ -48,6 +49,7 @@ int run_merge(const Arguments& arguments) {
   app.add_option("--fail-on", fail_on, "JUnit: what is a failure: error, warning, note, never")
       ->type_name("SEVERITY")
       ->capture_default_str();
+  app.add_flag("--statistics", statistics, "In text: how often each rule was looked at, and what was measured");
   app.footer(
       "Exit status: the worst of the results that are joined.\n\n"
       "Example:\n"
@@ -74,20 +76,20 @@ int run_merge(const Arguments& arguments) {
       return kExitFailed;
     }
   }
-  std::vector<std::pair<std::string, const CaptureRecord*>> order;
-  for (const CaptureRecord& capture : results.captures) order.emplace_back(content(capture), &capture);
-  std::sort(order.begin(), order.end(), [](const auto& left, const auto& right) {
-    return std::pair(std::string_view(left.second->file), std::string_view(left.first)) <
-           std::pair(std::string_view(right.second->file), std::string_view(right.first));
+  std::vector<const CaptureRecord*> order;
+  for (const CaptureRecord& capture : results.captures) order.push_back(&capture);
+  std::sort(order.begin(), order.end(), [](const CaptureRecord* left, const CaptureRecord* right) {
+    return left->file != right->file ? left->file < right->file : content(*left) < content(*right);
   });
-  Result<Targets> targets = Targets::open(outputs, "jsonl", {.style = Style(false), .fail_on = severity});
+  Result<Targets> targets =
+      Targets::open(outputs, "jsonl", {.style = Style(false), .fail_on = severity, .statistics = statistics});
   if (!targets) {
     complain(targets.error());
     return kExitFailed;
   }
   targets->begin();
   RunTotals totals;
-  for (const auto& [text, capture] : order) {
+  for (const CaptureRecord* const capture : order) {
     totals.add(*capture);
     targets->capture(*capture);
   }

@@ -85,6 +85,7 @@ int run_rules(const Arguments& arguments) {
   app.add_option("--select", select, "Only these rules: ids or prefixes (RX3, DN)")
       ->type_name("RULES")
       ->allow_extra_args(false);
+  app.footer("Examples:\n  servotrace rules\n  servotrace rules --format json");
   if (const std::optional<int> status = parse(app, arguments)) return *status;
   RuleFilter filter;
   if (const Result<void> known = filter.select(split_list(select)); !known) {

@@ -2,7 +2,9 @@
 // JUnit XML: a suite a capture, a test case a rule; skipped where the capture gave it no opportunity.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
+#include <vector>
 
 #include "decoder/render/json.hpp"
 #include "replay/output/output.hpp"
@@ -49,55 +51,51 @@ class Junit : public Output {
   Junit(Out& out, const OutputOptions& options) : Output(out), fail_on_(options.fail_on) {}
 
   void capture(const CaptureRecord& capture) override {
-    std::string cases;
-    Numbers numbers;
-    if (!capture.error.empty()) {
-      ++numbers.tests;
-      ++numbers.errors;
-      fmt::format_to(std::back_inserter(cases),
-                     "    <testcase classname=\"{}\" name=\"capture\" time=\"0\">\n"
-                     "      <error message=\"{}\" type=\"unreadable\"/>\n    </testcase>\n",
-                     escaped(capture.file), escaped(capture.error));
-    }
-    for (const RuleRecord& rule : capture.rules) append_case(cases, capture, rule, numbers);
-    fmt::format_to(std::back_inserter(suites_),
-                   "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\" time=\"0\">\n{}"
-                   "  </testsuite>\n",
-                   escaped(capture.file), numbers.tests, numbers.failures, numbers.errors, numbers.skipped, cases);
-    all_.tests += numbers.tests;
-    all_.failures += numbers.failures;
-    all_.errors += numbers.errors;
-    all_.skipped += numbers.skipped;
+    Suite& suite = suites_.emplace_back();
+    suite.file = escaped(capture.file);
+    suite.error = escaped(capture.error);
+    if (!capture.error.empty()) ++errors_;
+    for (const RuleRecord& rule : capture.rules) add_case(suite, capture, rule);
+    tests_ += suite.tests();
+    failures_ += suite.failures;
   }
 
   void end(const RunTotals&) override {
     out().write(
         fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"servotrace\" tests=\"{}\" "
                     "failures=\"{}\" errors=\"{}\" time=\"0\">\n",
-                    all_.tests, all_.failures, all_.errors));
-    out().write(suites_);
+                    tests_, failures_, errors_));
+    for (const Suite& suite : suites_) write(suite);
     out().write("</testsuites>\n");
   }
 
  private:
-  struct Numbers {
-    std::uint64_t tests = 0;
+  enum class Kind : std::uint8_t { kSkipped, kPassed, kTold };
+  struct Case {
+    RuleId rule{};
+    Kind kind = Kind::kSkipped;
+  };
+  // The counts stand in front of the cases, so a suite is kept; a case that has nothing to tell takes four bytes of it.
+  struct Suite {
+    std::string file;
+    std::string error;
+    std::vector<Case> cases;
+    std::vector<std::string> told;  // what stands inside the cases of kTold, in their order
     std::uint64_t failures = 0;
-    std::uint64_t errors = 0;
-    std::uint64_t skipped = 0;
+
+    std::uint64_t tests() const { return cases.size() + (error.empty() ? 0 : 1); }
+    std::uint64_t skipped() const {
+      return static_cast<std::uint64_t>(
+          std::count_if(cases.begin(), cases.end(), [](const Case& entry) { return entry.kind == Kind::kSkipped; }));
+    }
   };
 
-  void append_case(std::string& cases, const CaptureRecord& capture, const RuleRecord& rule, Numbers& numbers) {
-    const Rule& row = rule_row(rule.rule);
-    const auto to = std::back_inserter(cases);
-    ++numbers.tests;
-    fmt::format_to(to, "    <testcase classname=\"{}\" name=\"{} {}\" time=\"0\"", escaped(capture.file), row.id,
-                   row.slug);
-    if (rule.findings == 0 && rule.checked == 0) {
-      ++numbers.skipped;
-      cases += ">\n      <skipped/>\n    </testcase>\n";
+  void add_case(Suite& suite, const CaptureRecord& capture, const RuleRecord& rule) {
+    if (rule.findings == 0) {
+      suite.cases.push_back({rule.rule, rule.checked == 0 ? Kind::kSkipped : Kind::kPassed});
       return;
     }
+    const Rule& row = rule_row(rule.rule);
     std::string lines;
     const FindingRecord* worst = nullptr;
     for (const FindingRecord& finding : capture.findings) {
@@ -107,24 +105,48 @@ class Junit : public Output {
       fmt::format_to(std::back_inserter(lines), "frame {}: {}: {}{}{}\n", finding.frame, name_of(finding.severity), who,
                      who.empty() ? "" : ": ", finding.message);
     }
-    if (worst == nullptr) {
-      cases += "/>\n";
-      return;
+    const bool fails = worst != nullptr && fail_on_ && worst->severity >= *fail_on_;
+    suite.cases.push_back({rule.rule, worst == nullptr ? Kind::kPassed : Kind::kTold});
+    if (worst == nullptr) return;
+    if (fails) ++suite.failures;
+    suite.told.push_back(fails ? fmt::format("      <failure message=\"{}: {}\" type=\"{}\">{}</failure>\n",
+                                             plural(rule.findings, "finding"), escaped(row.title),
+                                             name_of(worst->severity), escaped(lines))
+                               : fmt::format("      <system-out>{}</system-out>\n", escaped(lines)));
+  }
+
+  void write(const Suite& suite) {
+    std::string text =
+        fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\" time=\"0\">\n",
+                    suite.file, suite.tests(), suite.failures, suite.error.empty() ? 0 : 1, suite.skipped());
+    const auto to = std::back_inserter(text);
+    if (!suite.error.empty()) {
+      fmt::format_to(to,
+                     "    <testcase classname=\"{}\" name=\"capture\" time=\"0\">\n"
+                     "      <error message=\"{}\" type=\"unreadable\"/>\n    </testcase>\n",
+                     suite.file, suite.error);
     }
-    const bool fails = fail_on_ && worst->severity >= *fail_on_;
-    if (fails) {
-      ++numbers.failures;
-      fmt::format_to(to, ">\n      <failure message=\"{}: {}\" type=\"{}\">{}</failure>\n    </testcase>\n",
-                     fmt::format("{} finding{}", rule.findings, rule.findings == 1 ? "" : "s"), escaped(row.title),
-                     name_of(worst->severity), escaped(lines));
-    } else {
-      fmt::format_to(to, ">\n      <system-out>{}</system-out>\n    </testcase>\n", escaped(lines));
+    auto told = suite.told.begin();
+    for (const Case& entry : suite.cases) {
+      const Rule& row = rule_row(entry.rule);
+      fmt::format_to(to, "    <testcase classname=\"{}\" name=\"{} {}\" time=\"0\"", suite.file, row.id, row.slug);
+      if (entry.kind == Kind::kPassed) {
+        text += "/>\n";
+      } else {
+        fmt::format_to(
+            to, ">\n{}    </testcase>\n",
+            entry.kind == Kind::kSkipped ? std::string_view("      <skipped/>\n") : std::string_view(*told++));
+      }
     }
+    text += "  </testsuite>\n";
+    out().write(text);
   }
 
   std::optional<Severity> fail_on_;
-  std::string suites_;
-  Numbers all_;
+  std::vector<Suite> suites_;
+  std::uint64_t tests_ = 0;
+  std::uint64_t failures_ = 0;
+  std::uint64_t errors_ = 0;
 };
 
 }  // namespace

@@ -14,6 +14,7 @@ namespace servotrace::replay {
 struct OutputOptions {
   Style style;                                         // text only
   std::optional<Severity> fail_on = Severity::kError;  // JUnit: from where on a finding is a failure; empty: never
+  bool statistics = false;                             // text: what was looked at and measured, of every capture
 };
 
 class Output {

@@ -77,7 +77,7 @@ class Sarif : public Output {
   }
 
   void capture(const CaptureRecord& capture) override {
-    if (!capture.error.empty()) errors_.push_back(capture.error);
+    if (!capture.error.empty()) notices_.push_back({"error", capture.error});
     if (for_github_) {
       collapse(capture);
       return;
@@ -95,8 +95,9 @@ class Sarif : public Output {
     json_.key("invocations").begin_array().begin_object();
     json_.member("executionSuccessful", totals.status != kExitFailed).member("exitCode", totals.status);
     json_.key("toolExecutionNotifications").begin_array();
-    for (const std::string& error : errors_) {
-      json_.begin_object().member("level", "error").key("message").begin_object().member("text", error).end_object();
+    for (const Notice& notice : notices_) {
+      json_.begin_object().member("level", notice.level);
+      write_text("message", notice.text);
       json_.end_object();
     }
     json_.end_array().end_object().end_array();
@@ -106,6 +107,11 @@ class Sarif : public Output {
   }
 
  private:
+  // What went wrong in the run itself.
+  struct Notice {
+    std::string_view level;
+    std::string text;
+  };
   struct Collapsed {
     CaptureRecord capture;  // without its lists
     FindingRecord finding;
@@ -212,8 +218,8 @@ class Sarif : public Output {
       return left.finding.severity > right.finding.severity;
     });
     if (collapsed_.size() > kMostForGithub) {
-      errors_.push_back(
-          fmt::format("{} results are left out, the least severe ones", collapsed_.size() - kMostForGithub));
+      notices_.push_back({"warning", fmt::format("{} results are left out, the least severe ones",
+                                                 collapsed_.size() - kMostForGithub)});
       collapsed_.resize(kMostForGithub);
     }
     for (const Collapsed& entry : collapsed_) {
@@ -227,7 +233,7 @@ class Sarif : public Output {
   bool for_github_;
   std::string text_;
   JsonWriter json_{text_, 1};
-  std::vector<std::string> errors_;
+  std::vector<Notice> notices_;
   std::map<std::string, std::size_t> places_;  // identity to its place in collapsed_
   std::vector<Collapsed> collapsed_;
 };

@@ -8,13 +8,15 @@
 #include "decoder/render/value.hpp"
 #include "replay/exit_status.hpp"
 #include "replay/output/output.hpp"
+#include "replay/statistic_text.hpp"
 
 namespace servotrace::replay {
 namespace {
 
 class Text : public Output {
  public:
-  Text(Out& out, const OutputOptions& options) : Output(out), style_(options.style) {}
+  Text(Out& out, const OutputOptions& options)
+      : Output(out), style_(options.style), wants_statistics_(options.statistics) {}
 
   bool wants_evidence() const override { return true; }
 
@@ -24,6 +26,7 @@ class Text : public Output {
     for (const NodeRecord& node : capture.nodes) {
       if (node.sampled) sampled_.insert(fmt::format("{}: {}", capture.file, node.node.bus));
     }
+    if (wants_statistics_) write_statistics(capture);
   }
 
   void end(const RunTotals& totals) override {
@@ -81,6 +84,35 @@ class Text : public Output {
     out().write(text);
   }
 
+  // What was looked at and measured, where all is well too.
+  void write_statistics(const CaptureRecord& capture) {
+    std::string text = fmt::format("{}{}: {}{}\n", style_.bold(), capture.file,
+                                   plural(capture.checked_frames, "checked frame"), style_.reset());
+    const auto to = std::back_inserter(text);
+    for (const NodeRecord& node : capture.nodes) {
+      for (const Fact& fact : node.settings) {
+        if (node.node.mac_id || !fact.key.starts_with("bus_load")) continue;
+        fmt::format_to(to, "  {} {} = {}\n", node.node.bus, fact.key, fact.value);
+      }
+    }
+    if (!capture.statistics.empty()) fmt::format_to(to, "  measured ({}):\n", kStatisticColumns);
+    for (const StatisticRecord& statistic : capture.statistics) {
+      fmt::format_to(to, "    {}\n", statistic_text(capture, statistic));
+    }
+    text += "  rules (times looked at, findings):\n";
+    std::size_t idle = 0;
+    for (const RuleRecord& rule : capture.rules) {
+      if (rule.checked == 0 && rule.findings == 0) {
+        ++idle;
+        continue;
+      }
+      const Rule& row = rule_row(rule.rule);
+      fmt::format_to(to, "    {:<6} {:>9} {:>6}  {}\n", row.id, rule.checked, rule.findings, row.title);
+    }
+    fmt::format_to(to, "    {} without an opportunity\n", plural(idle, "rule"));
+    out().write(text);
+  }
+
   void add(const CaptureRecord&, const RuleRecord& rule) {
     if (rule.findings != 0) rows_[rule.rule].findings += rule.findings;
   }
@@ -126,6 +158,7 @@ class Text : public Output {
   }
 
   Style style_;
+  bool wants_statistics_;
   std::map<RuleId, Row> rows_;
   std::set<std::string> sampled_;  // buses
 };

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "decoder/pipeline/registry.hpp"
+#include "replay/settings/limit_rows.hpp"
 #include "replay/settings/rtex_log_reader.hpp"
 #include "replay/settings/toml_reader.hpp"
 
@@ -15,7 +16,6 @@ namespace servotrace::replay {
 namespace {
 
 constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
-constexpr std::int64_t kDayMs = 86'400'000;
 
 // "7.23" to 0717h.
 std::optional<std::uint16_t> parameter_index(std::string_view text) {
@@ -145,41 +145,10 @@ void read_devicenet(const toml::table& source, DevicenetSettings& devicenet, Tom
 }
 
 void read_limits(const toml::table& source, Limits& limits, TomlErrors& errors) {
-  struct Row {
-    std::string_view key;
-    std::int64_t Limits::*member;
-    std::int64_t minimum;
-    std::int64_t maximum;
-  };
-  static constexpr Row kRows[] = {
-      {"echo_ms", &Limits::echo_ms, 1, kDayMs},
-      {"busy_ms", &Limits::busy_ms, 1, kDayMs},
-      {"busy_long_ms", &Limits::busy_long_ms, 1, kDayMs},
-      {"communication_errors", &Limits::communication_errors, 1, 1'000'000},
-      {"jitter_percent", &Limits::jitter_percent, 1, 10'000},
-      {"timeout_cycles", &Limits::timeout_cycles, 2, 1'000'000},
-      {"servo_on_units", &Limits::servo_on_units, 0, INT32_MAX},
-      {"inhibit_units", &Limits::inhibit_units, 0, INT32_MAX},
-      {"dead_band_units", &Limits::dead_band_units, 0, INT32_MAX},
-      {"mode_change_velocity_percent", &Limits::mode_change_velocity_percent, 0, 10'000},
-      {"torque_limited_ms", &Limits::torque_limited_ms, 0, kDayMs},
-      {"eeprom_writes_per_hour", &Limits::eeprom_writes_per_hour, 0, 1'000'000},
-      {"explicit_response_ms", &Limits::explicit_response_ms, 1, kDayMs},
-      {"epr_factor", &Limits::epr_factor, 1, 1000},
-      {"poll_echo_count", &Limits::poll_echo_count, 1, 1000},
-      {"prm_ack_ms", &Limits::prm_ack_ms, 1, kDayMs},
-      {"prm_ack_long_ms", &Limits::prm_ack_long_ms, 1, kDayMs},
-      {"start_seen_ms", &Limits::start_seen_ms, 1, kDayMs},
-      {"handshake_ms", &Limits::handshake_ms, 1, kDayMs},
-      {"fragment_ms", &Limits::fragment_ms, 1, kDayMs},
-      {"fragment_ack_ms", &Limits::fragment_ack_ms, 1, kDayMs},
-      {"first_io_ms", &Limits::first_io_ms, 1, kDayMs},
-      {"flash_writes_per_hour", &Limits::flash_writes_per_hour, 0, 1'000'000},
-  };
   std::vector<std::string_view> keys{"moving_speed"};
-  for (const Row& row : kRows) keys.push_back(row.key);
+  for (const LimitRow& row : kLimitRows) keys.push_back(row.key);
   const TomlTable table(source, "[limits]", std::move(keys), errors);
-  for (const Row& row : kRows) {
+  for (const LimitRow& row : kLimitRows) {
     if (const auto value = table.integer(row.key, row.minimum, row.maximum)) limits.*row.member = *value;
   }
   if (const auto speed = table.integer("moving_speed", 1, INT32_MAX)) limits.moving_speed = *speed;
