@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -56,8 +57,10 @@ Outcome Program::spawn(const std::vector<std::string>& words, const std::string&
     ::_exit(127);
   }
   int state = 0;
-  ::waitpid(child, &state, 0);
+  ::rusage usage = {};
+  ::wait4(child, &state, 0, &usage);
   Outcome outcome;
+  outcome.peak_kb = usage.ru_maxrss;
   outcome.status = WIFEXITED(state) ? WEXITSTATUS(state) : 128 + WTERMSIG(state);
   outcome.out = content(out);
   outcome.err = content(err);

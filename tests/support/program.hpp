@@ -12,6 +12,7 @@ struct Outcome {
   int status = -1;  // exit status, or 128 + the signal that ended it
   std::string out;
   std::string err;
+  long peak_kb = 0;  // most memory it held
 };
 
 class Program {

@@ -121,5 +121,45 @@ TEST_F(Export, BashCompletionKnowsCommandsAndOptions) {
   EXPECT_THAT(options.out, StartsWith("--fail-on")) << options.err;
 }
 
+TEST_F(Export, ConfigWithEveryLineInForceIsReadBack) {
+  const Outcome made = program.run({"config", "--init", "clean.pcapng"});
+  ASSERT_EQ(made.status, 0) << made.err;
+  // The limits as they stand behind their #: the defaults, so nothing changes.
+  program.write("made.toml", made.out);
+  ASSERT_EQ(program
+                .shell("sed -E 's/^# ([a-z_]+ = [0-9]+ *(#.*)?)$/\\1/' made.toml > servotrace.toml; "
+                       "[ $(sed -n '/^.limits/,/^.rules/p' servotrace.toml | grep -c '^[a-z_]* = ') = 24 ]")
+                .status,
+            0)
+      << program.read("servotrace.toml");
+  const Outcome check = program.run({"check", "clean.pcapng"});
+  EXPECT_EQ(check.status, 0) << check.err;
+  EXPECT_EQ(check.err, "");
+}
+
+// The completion of zsh, with the functions of its completion system replaced by ones that print what they are given.
+TEST_F(Export, ZshCompletionKnowsCommandsAndOptions) {
+  if (program.shell("command -v zsh").status != 0) GTEST_SKIP() << "no zsh";
+  const std::string script = (source_dir() / "replay" / "completions" / "_servotrace").string();
+  EXPECT_EQ(program.shell("zsh -n '" + script + "'").err, "");
+  const auto complete = [&](const std::string& words, int current) {
+    program.write("try.zsh",
+                  "compadd() { [[ $1 == -- ]] && shift; print -l -- $@ }\n"
+                  "_describe() { print -l -- ${(P)2} }\n_files() { print files }\n"
+                  "words=(" +
+                      words + ") CURRENT=" + std::to_string(current) + " PREFIX=${words[-1]}\nsource '" + script +
+                      "'\n");
+    const Outcome outcome = program.shell("zsh -f try.zsh");
+    EXPECT_EQ(outcome.err, "");
+    return outcome.out;
+  };
+  EXPECT_THAT(complete("servotrace ch", 2), HasSubstr("check:verifies captures"));
+  EXPECT_THAT(complete("servotrace check --fail", 3), HasSubstr("--fail-on\n"));
+  EXPECT_THAT(complete("servotrace check x --fail-on ''", 5), HasSubstr("warning\n"));
+  EXPECT_THAT(complete("servotrace check --output ''", 4), HasSubstr("sarif-github\n"));
+  EXPECT_THAT(complete("servotrace explain R", 3), HasSubstr("RX201\n"));
+  EXPECT_EQ(complete("servotrace check x", 3), "files\n");
+}
+
 }  // namespace
 }  // namespace servotrace::test
