@@ -123,9 +123,9 @@ int run_annotate(const Arguments& arguments) {
   Annotator annotator(**writer, **settings, *selection);
   const CaptureResult result =
       run(**source, input->name, (*settings)->decoder, {.visitor = &annotator, .stop = {}, .on_progress = {}});
+  if (result.error) return fail(not_written(*result.error, out_path));
   annotator.finish();
   if (const Result<void> written = (*writer)->finish(); !written) return fail(written.error());
-  if (result.error) return fail(*result.error);
   return kExitClean;
 }
 

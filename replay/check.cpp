@@ -7,12 +7,12 @@
 #include <cstdio>
 
 #include "replay/baseline.hpp"
+#include "replay/capture/interrupt.hpp"
 #include "replay/check_live.hpp"
 #include "replay/commands.hpp"
 #include "replay/evidence.hpp"
 #include "replay/exit_status.hpp"
 #include "replay/in_order.hpp"
-#include "replay/interrupt.hpp"
 #include "replay/judge.hpp"
 #include "replay/output/targets.hpp"
 #include "replay/progress.hpp"

@@ -7,8 +7,8 @@
 
 #include "decoder/render/sentence.hpp"
 #include "decoder/render/value.hpp"
+#include "replay/capture/interrupt.hpp"
 #include "replay/capture/live.hpp"
-#include "replay/interrupt.hpp"
 
 namespace servotrace::replay {
 namespace {

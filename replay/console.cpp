@@ -26,6 +26,11 @@ void complain(std::string_view message) {
 
 void complain(const Error& error) { complain(error.text()); }
 
+Error not_written(Error error, std::string_view path) {
+  error.what += fmt::format("; {} is not written", path);
+  return error;
+}
+
 StandardOut::~StandardOut() { StandardOut::flush(); }
 
 void StandardOut::write(std::string_view text) {

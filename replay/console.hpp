@@ -15,6 +15,8 @@ namespace servotrace::replay {
 // "servotrace: MESSAGE" on standard error, one line.
 void complain(std::string_view message);
 void complain(const Error& error);
+// The error that kept a file from being made: its name stands behind what happened.
+Error not_written(Error error, std::string_view path);
 
 // Where results are written. A closed pipe (`| head`) is no error: what follows is dropped.
 class Out {

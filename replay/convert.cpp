@@ -195,9 +195,9 @@ int run_convert(const Arguments& arguments) {
   RawFrame frame;
   Source::Step step = Source::Step::kEnd;
   while ((step = source.next(frame)) == Source::Step::kFrame) converter.take(frame, source);
+  if (step == Source::Step::kError) return fail(not_written(source.error(), out_path));
   if (const Result<void> written = (*writer)->finish(); !written) return fail(written.error());
-  if (step == Source::Step::kError) return fail(source.error());
-  if (source.truncation()) return fail({input->name, "ends inside a record: what came before it was converted"});
+  if (source.truncation()) complain(Error{input->name, "ends inside a record: what came before it was converted"});
   if (opened->log != nullptr && opened->log->incomplete() != 0) {
     complain(Error{input->name, fmt::format("{} records left out: the rows of some axes are missing in their cycles",
                                             opened->log->incomplete())});

@@ -201,7 +201,7 @@ int run_export(const Arguments& arguments) {
   SeriesList list;
   Finder finder(list, !csv);
   const CaptureResult found = run_input(*input, decoder, {.visitor = &finder, .stop = {}, .on_progress = {}});
-  if (found.format.empty()) return fail(*found.error);
+  if (found.error) return fail(not_written(*found.error, out_path));
   if (found.summary.checked_frames == 0) {
     complain(Error{input->name, "no frame of a known bus"});
     return kExitNothing;
@@ -218,7 +218,6 @@ int run_export(const Arguments& arguments) {
     writer.finish();
   }
   if (const Result<void> written = (*file)->finish(); !written) return fail(written.error());
-  if (found.error) return fail(*found.error);
   return kExitClean;
 }
 

@@ -22,18 +22,15 @@ class Runner {
   void run() {
     RawFrame frame;
     for (bool go_on = true; go_on;) {
-      if (options_.stop != nullptr && options_.stop->load(std::memory_order_relaxed)) {
-        result_.stopped = true;
-        finish();
-        break;
-      }
-      const Source::Step step = source_.next(frame);
+      const Source::Step step = is_told_to_stop() ? Source::Step::kEnd : source_.next(frame);
       if (step == Source::Step::kFrame) {
         take_drops(frame.number - 1);
         go_on = push(frame);
         continue;
       }
-      if (step == Source::Step::kError) result_.error = source_.error();
+      // A source that was stopped may end inside a record: that is no fault of the capture.
+      result_.stopped = is_told_to_stop();
+      if (step == Source::Step::kError && !result_.stopped) result_.error = source_.error();
       finish();
       go_on = false;
     }
@@ -42,6 +39,8 @@ class Runner {
   }
 
  private:
+  bool is_told_to_stop() const { return options_.stop != nullptr && options_.stop->load(std::memory_order_relaxed); }
+
   bool push(const RawFrame& frame) {
     FrameVisitor* const visitor = options_.visitor;
     Dissection* const wanted =
@@ -87,7 +86,7 @@ class Runner {
       if (rest[i].count != 0) total_only_.push_back(rest[i].interface_id);
     }
     take_drops(UINT64_MAX);
-    if (source_.truncation()) {
+    if (source_.truncation() && !result_.stopped) {
       pipeline_.truncated_end(source_.truncation()->captured, source_.truncation()->expected);
       tell_end();
     }

@@ -75,7 +75,9 @@ bool Findings::raise(const RawFrame& frame, const Report& report) {
   }
   ++rule_state.raised;
   ++total_[index];
-  if (rule_state.raised > max_per_owner_) {
+  std::uint64_t raised = 0;  // in all variants
+  for (const RuleState& entry : owner.states) raised += entry.rule == report.rule ? entry.raised : 0;
+  if (raised > max_per_owner_) {
     rule_state.finding = kNotKept;
     return false;
   }

@@ -2,6 +2,7 @@
 #include "replay/capture/input.hpp"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -10,6 +11,7 @@
 #include <cstring>
 #include <system_error>
 
+#include "replay/capture/interrupt.hpp"
 #include "replay/capture/limits.hpp"
 #include "replay/capture/mapped_file.hpp"
 
@@ -65,13 +67,26 @@ class DescriptorInput final : public BufferedInput {
 
  private:
   std::size_t fill(MutableBytes into) override {
-    for (;;) {
+    while (wait_for_bytes()) {
       const ssize_t got = ::read(descriptor_, into.data(), into.size());
       if (got >= 0) return static_cast<std::size_t>(got);
       if (errno == EINTR) continue;
       failure_ = "cannot be read on: " + reason(errno);
       return 0;
     }
+    return 0;
+  }
+
+  // False once the run was interrupted. The signal may come to any thread and just before the wait, so the flag is
+  // looked at again and again.
+  bool wait_for_bytes() const {
+    constexpr int kLookEveryMs = 100;
+    ::pollfd waiting{.fd = descriptor_, .events = POLLIN, .revents = 0};
+    while (!interrupted()) {
+      const int ready = ::poll(&waiting, 1, kLookEveryMs);
+      if (ready > 0 || (ready < 0 && errno != EINTR)) return true;  // bytes, the end, or what read() will tell
+    }
+    return false;
   }
 
   int descriptor_;

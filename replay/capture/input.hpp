@@ -71,7 +71,7 @@ inline constexpr const char* kLost = "cannot be read on: the file was cut while 
 // An input that is read piece by piece into a buffer.
 class BufferedInput : public Input {
  protected:
-  // Reads some bytes, at least one, into `into`. 0: the end, or failure_ is set.
+  // Reads some bytes, at least one, into `into`. 0: the end, the run was interrupted, or failure_ is set.
   virtual std::size_t fill(MutableBytes into) = 0;
 
  private:

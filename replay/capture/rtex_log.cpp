@@ -24,6 +24,13 @@ struct Memory {
   TimeNs time_ns = 0;
 };
 
+// Cells of a row, and characters of the last one.
+struct RowShape {
+  std::size_t cells = 0;
+  std::size_t last = 0;
+  bool operator==(const RowShape&) const = default;
+};
+
 struct Ready {
   TimeNs time_ns = 0;
   std::vector<std::uint8_t> frame;
@@ -37,6 +44,7 @@ class LogReader final : public RtexLogSource {
     Lines(std::unique_ptr<Input> input, std::string name) : LineSource(std::move(input), std::move(name), "log") {}
     Step next(RawFrame&) override { return Step::kEnd; }
     Step line(std::string_view& text) { return read_line(text); }
+    using LineSource::unfinished;
     Error broken_line(std::string what) {
       static_cast<void>(fail_line(std::move(what)));
       return error_;
@@ -79,7 +87,7 @@ class LogReader final : public RtexLogSource {
       error_ = *failed_;
       return Step::kError;
     }
-    truncation_ = lines_.truncation();
+    if (!last_is_whole_) truncation_ = lines_.truncation();
     return Step::kEnd;
   }
 
@@ -100,6 +108,7 @@ class LogReader final : public RtexLogSource {
     const Step step = lines_.line(line);
     if (step != Step::kFrame) {
       if (step == Step::kError) failed_ = lines_.error();
+      if (step == Step::kEnd) take_unfinished();
       flush();
       ended_ = true;
       return false;
@@ -118,7 +127,20 @@ class LogReader final : public RtexLogSource {
     }
     if (!map_.lines_with.empty() && line.find(map_.lines_with) == std::string_view::npos) return true;
     split_row(line, separator_, cells_);
+    const RowShape shape{cells_.size(), cells_.back().size()};
+    alike_ = rows_ == 0 || (alike_ && shape == shape_);
+    shape_ = shape;
+    ++rows_;
     return take_row();
+  }
+
+  // A last line without its end is taken where it cannot be cut: all rows end in cells of one width, and so does it.
+  void take_unfinished() {
+    const std::string_view line = lines_.unfinished();
+    if (line.empty() || rows_ < 2 || !alike_) return;
+    if (!map_.lines_with.empty() && line.find(map_.lines_with) == std::string_view::npos) return;
+    split_row(line, separator_, cells_);
+    if (shape_ == RowShape{cells_.size(), cells_.back().size()}) last_is_whole_ = take_row();
   }
 
   bool take_row() {
@@ -208,6 +230,10 @@ class LogReader final : public RtexLogSource {
   Cells cells_;
   bool located_ = false;
   std::size_t skipped_ = 0;
+  std::uint64_t rows_ = 0;
+  RowShape shape_;
+  bool alike_ = false;  // all rows have shape_
+  bool last_is_whole_ = false;
   LogRows rows_{map_};
   std::vector<std::size_t> offsets_;
 

@@ -18,6 +18,12 @@ constexpr std::uint8_t kFdFlag = 0x04;
 
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
 
+std::string_view trimmed(std::string_view line) {
+  while (!line.empty() && (line.back() == '\r' || is_blank(line.back()))) line.remove_suffix(1);
+  while (!line.empty() && is_blank(line.front())) line.remove_prefix(1);
+  return line;
+}
+
 }  // namespace
 
 Source::Step LineSource::read_line(std::string_view& line) {
@@ -33,8 +39,7 @@ Source::Step LineSource::read_line(std::string_view& line) {
       byte_offset_ = 0;
       input_->skip(length + 1);
       if (++line_number_ == 1 && line.substr(0, 3) == "\xEF\xBB\xBF") line.remove_prefix(3);
-      while (!line.empty() && (line.back() == '\r' || is_blank(line.back()))) line.remove_suffix(1);
-      while (!line.empty() && is_blank(line.front())) line.remove_prefix(1);
+      line = trimmed(line);
       return Step::kFrame;
     }
     if (there.size() >= kMaxLine) {
@@ -46,6 +51,10 @@ Source::Step LineSource::read_line(std::string_view& line) {
     if (more.size() > there.size()) continue;
     // A last line without its end may be cut: it is no whole record.
     const bool blank = std::all_of(more.begin(), more.end(), [](std::uint8_t byte) { return byte <= ' '; });
+    if (!blank) {
+      ++line_number_;
+      unfinished_ = trimmed(std::string_view(reinterpret_cast<const char*>(more.data()), more.size()));
+    }
     return end(blank ? 0 : more.size(), more.size() + 1);
   }
 }

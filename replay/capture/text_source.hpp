@@ -33,9 +33,12 @@ class LineSource : public FileSource {
   // The next line without its end. kEnd: there is none.
   Step read_line(std::string_view& line);
   Step fail_line(std::string what);
+  // After kEnd: a last line without its end, which may be cut; empty where there is none.
+  std::string_view unfinished() const { return unfinished_; }
 
  private:
   std::uint64_t line_number_ = 0;
+  std::string_view unfinished_;
 };
 
 class TextSource : public LineSource {

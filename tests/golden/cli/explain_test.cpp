@@ -7,7 +7,7 @@
 
 #include "decoder/findings/catalogue.hpp"
 #include "replay/examples/rule_examples.hpp"
-#include "tests/golden/cli/program.hpp"
+#include "tests/support/program.hpp"
 #include "tests/support/scenarios.hpp"
 
 namespace servotrace::test {

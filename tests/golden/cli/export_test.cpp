@@ -126,11 +126,12 @@ TEST_F(Export, ConfigWithEveryLineInForceIsReadBack) {
   ASSERT_EQ(made.status, 0) << made.err;
   // The limits as they stand behind their #: the defaults, so nothing changes.
   program.write("made.toml", made.out);
-  ASSERT_EQ(program
-                .shell("sed -E 's/^# ([a-z_]+ = [0-9]+ *(#.*)?)$/\\1/' made.toml > servotrace.toml; "
-                       "[ $(sed -n '/^.limits/,/^.rules/p' servotrace.toml | grep -c '^[a-z_]* = ') = 24 ]")
-                .status,
-            0)
+  ASSERT_EQ(
+      program
+          .shell("sed -E '/^.limits/,/^.rules/s/^# ([a-z_]+ = [0-9]+ *(#.*)?)$/\\1/' made.toml > servotrace.toml; "
+                 "[ $(sed -n '/^.limits/,/^.rules/p' servotrace.toml | grep -c '^[a-z_]* = ') = 24 ]")
+          .status,
+      0)
       << program.read("servotrace.toml");
   const Outcome check = program.run({"check", "clean.pcapng"});
   EXPECT_EQ(check.status, 0) << check.err;

@@ -103,17 +103,35 @@ TEST_P(BrokenStream, IsAMessageAndTwo) {
   }
 }
 
-// What could be read holds: it is kept, as a whole file, and the status says that something is missing.
-TEST_P(BrokenStream, WhatHoldsIsKeptAsAWholeFile) {
-  for (const char* command : {"convert", "annotate"}) {
-    const Outcome outcome = program.shell(std::string("servotrace ") + command + " cut.packed -o out.pcapng");
-    EXPECT_EQ(outcome.status, 2) << command;
-    EXPECT_THAT(outcome.err, HasSubstr("stream ends early")) << command;
-    if (!program.exists("out.pcapng")) continue;
-    const Outcome read = program.run({"info", "out.pcapng"});
-    EXPECT_EQ(read.status, 0) << command << ": " << read.err;
-    std::filesystem::remove(program.folder() / "out.pcapng");
+// What could be read is no whole file: neither a new one nor one in place of the old.
+TEST_P(BrokenStream, NoFileIsMadeOfHalf) {
+  for (const char* arguments : {"convert cut.packed -o out.pcapng", "annotate cut.packed -o out.pcapng",
+                                "export cut.packed -o out.csv", "export cut.packed -o out.pftrace"}) {
+    const std::string name = std::string(arguments).substr(std::string(arguments).rfind(' ') + 1);
+    for (const bool is_old : {false, true}) {
+      if (is_old) program.write(name, "as it was");
+      const Outcome outcome = program.shell(std::string("servotrace ") + arguments);
+      EXPECT_EQ(outcome.status, 2) << arguments;
+      EXPECT_THAT(outcome.err, HasSubstr("stream ends early")) << arguments;
+      EXPECT_THAT(outcome.err, HasSubstr("; " + name + " is not written\n")) << arguments;
+      if (is_old) {
+        EXPECT_EQ(program.read(name), "as it was") << arguments;
+        std::filesystem::remove(program.folder() / name);
+      }
+      EXPECT_THAT(files(), ElementsAre("cut.packed")) << arguments;
+    }
   }
+}
+
+// A recording that was cut holds whole records: they are a whole file, and the cut is said.
+TEST_F(Fault, ARecordingThatWasCutIsConvertedUpToItsLastRecord) {
+  ASSERT_EQ(program.shell("head -c -30 run.pcapng > cut.pcapng").status, 0);
+  const Outcome outcome = program.run({"convert", "cut.pcapng", "-o", "out.pcapng"});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.err, "servotrace: cut.pcapng: ends inside a record: what came before it was converted\n");
+  const Outcome read = program.run({"check", "out.pcapng"});
+  EXPECT_EQ(read.status, 0) << read.err;
+  EXPECT_THAT(read.out, testing::StartsWith("clean: no findings in "));
 }
 
 INSTANTIATE_TEST_SUITE_P(All, BrokenStream, ::testing::Values("gzip", "zstd"));

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/golden/cli/program.hpp"
+#include "tests/support/program.hpp"
 
 namespace servotrace::test {
 namespace {
@@ -57,9 +57,10 @@ TEST_F(Interrupted, AStreamEndsWithItsSummary) {
   program.write("run.sh",
                 "mkfifo pipe\n"
                 "servotrace check - --fail-on warning <pipe >out.txt & pid=$!\n"
-                "exec 3>pipe; cat run.pcapng >&3; sleep 0.5\n"
+                // The stream stays open, half a record is on its way.
+                "exec 3>pipe; cat run.pcapng >&3; head -c 30 run.pcapng >&3; sleep 0.5\n"
                 "kill -INT $pid; wait $pid; echo status $?; cat out.txt\n");
-  const Outcome outcome = program.shell("bash run.sh");
+  const Outcome outcome = program.shell("timeout -k 1 20 bash run.sh");
   EXPECT_THAT(outcome.out, StartsWith("status 1\n-:"));
   EXPECT_THAT(outcome.out, HasSubstr("warning[CP102]"));
   EXPECT_THAT(outcome.out, HasSubstr("\nfindings: 0 errors, 1 warning, 0 notes in "));

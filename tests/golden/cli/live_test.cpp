@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "replay/capture/source.hpp"
-#include "tests/golden/cli/program.hpp"
+#include "tests/support/program.hpp"
 
 namespace servotrace::test {
 namespace {
@@ -26,7 +26,7 @@ if kind == 'ethernet':
   send = out.send
 else:
   out = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-  send = lambda frame: out.sendto(frame[42:], ('127.0.0.1', 35224))
+  send = lambda frame: out.sendto(frame[28:], ('127.0.0.1', 35224))
 at = 0
 while at < len(data):
   size, = struct.unpack_from('>H', data, at)

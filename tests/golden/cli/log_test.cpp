@@ -322,6 +322,33 @@ TEST_F(Log, WrongMapsAreRefusedWithTheirPlace) {
   }
 }
 
+// Many a program ends its log without an end of line.
+TEST_F(Log, ALastLineWithoutItsEndIsReadWhereItIsWhole) {
+  std::string text = "t;cycle;dir;axis;data\n" + lines([](const Recorded& record, std::size_t i) {
+                       return fmt::format("{};{};{};{};{}", seconds(record.time_ns), record.sequence(),
+                                          record.response() ? "RX" : "TX", i + 1, hex(record.block(i)));
+                     });
+  const std::string map = std::string(
+                              "time = \"t\"\nsequence = \"cycle\"\naxis = \"axis\"\nsampled = false\n"
+                              "communication_cycle_us = 500\n"
+                              "direction = {column = \"dir\", command = \"TX\", response = \"RX\"}\n"
+                              "command = {block = \"data\"}\nresponse = {block = \"data\"}\n") +
+                          kNodes;
+  text.pop_back();
+  program.write("log.txt", text);
+  expect_the_same(map);
+  // One digit less: the row is left out, and that is said.
+  text.pop_back();
+  program.write("log.txt", text);
+  const Outcome cut = convert(map);
+  EXPECT_EQ(cut.status, 0);
+  EXPECT_THAT(cut.err, HasSubstr("log.txt: ends inside a record: what came before it was converted\n"));
+  // Numbers of any width: "12" may have been "127".
+  program.write("log.txt", "t,c\n1,16\n2,127\n3,12");
+  const Outcome numbers = convert("time = \"t\"\n[[node]]\nmac_id = 1\ncommand = {fields = {command_code = \"c\"}}\n");
+  EXPECT_THAT(numbers.err, HasSubstr("ends inside a record"));
+}
+
 TEST_F(Log, WrongRowsAreRefusedWithTheirLine) {
   const std::string block(32, '0');
   const std::string map =

@@ -12,8 +12,8 @@
 #include <set>
 #include <sstream>
 
-#include "tests/golden/cli/program.hpp"
 #include "tests/support/paths.hpp"
+#include "tests/support/program.hpp"
 
 namespace servotrace::test {
 namespace {

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/golden/cli/markdown_blocks.hpp"
-#include "tests/golden/cli/program.hpp"
 #include "tests/support/paths.hpp"
+#include "tests/support/program.hpp"
 
 namespace servotrace::test {
 namespace {

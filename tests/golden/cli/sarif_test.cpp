@@ -10,8 +10,8 @@
 #include <set>
 #include <sstream>
 
-#include "tests/golden/cli/program.hpp"
 #include "tests/support/paths.hpp"
+#include "tests/support/program.hpp"
 
 namespace servotrace::test {
 namespace {
@@ -79,7 +79,8 @@ class SarifGithub : public ::testing::Test {
  protected:
   static std::set<std::string> prints(const std::string& text) {
     std::set<std::string> all;
-    for (const json& result : json::parse(text)["runs"][0]["results"]) {
+    const json document = json::parse(text);
+    for (const json& result : document["runs"][0]["results"]) {
       all.insert(result["partialFingerprints"]["primaryLocationLineHash"].get<std::string>());
     }
     return all;

@@ -47,6 +47,18 @@ TEST(Findings, OnceRulesStayOnceAVariantAcrossCalms) {
   EXPECT_EQ(findings.all()[0].count, 2U);
 }
 
+TEST(Findings, TheBoundCountsAllVariantsOfARule) {
+  Findings findings(2);
+  const OwnerId owner = findings.owner(kNode);
+  for (std::int64_t variant = 1; variant <= 4; ++variant) {
+    const bool added = findings.raise(frame(1), {.rule = rule("CP105"), .owner = owner, .variant = variant});
+    EXPECT_EQ(added, variant <= 2) << variant;
+  }
+  EXPECT_EQ(findings.all().size(), 2U);
+  EXPECT_EQ(findings.total(rule("CP105")), 4U);
+  EXPECT_TRUE(findings.raise(frame(2), {.rule = rule("CP104"), .owner = owner})) << "another rule has its own";
+}
+
 TEST(Findings, OwnersAreApart) {
   Findings findings;
   const OwnerId first = findings.owner(kNode);

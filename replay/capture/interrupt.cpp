@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "replay/interrupt.hpp"
+#include "replay/capture/interrupt.hpp"
 
 #include <csignal>
 
