@@ -128,16 +128,16 @@ class LogReader final : public RtexLogSource {
     if (!map_.lines_with.empty() && line.find(map_.lines_with) == std::string_view::npos) return true;
     split_row(line, separator_, cells_);
     const RowShape shape{cells_.size(), cells_.back().size()};
-    alike_ = rows_ == 0 || (alike_ && shape == shape_);
+    alike_ = row_count_ == 0 || (alike_ && shape == shape_);
     shape_ = shape;
-    ++rows_;
+    ++row_count_;
     return take_row();
   }
 
   // A last line without its end is taken where it cannot be cut: all rows end in cells of one width, and so does it.
   void take_unfinished() {
     const std::string_view line = lines_.unfinished();
-    if (line.empty() || rows_ < 2 || !alike_) return;
+    if (line.empty() || row_count_ < 2 || !alike_) return;
     if (!map_.lines_with.empty() && line.find(map_.lines_with) == std::string_view::npos) return;
     split_row(line, separator_, cells_);
     if (shape_ == RowShape{cells_.size(), cells_.back().size()}) last_is_whole_ = take_row();
@@ -230,7 +230,7 @@ class LogReader final : public RtexLogSource {
   Cells cells_;
   bool located_ = false;
   std::size_t skipped_ = 0;
-  std::uint64_t rows_ = 0;
+  std::uint64_t row_count_ = 0;
   RowShape shape_;
   bool alike_ = false;  // all rows have shape_
   bool last_is_whole_ = false;
