@@ -3,36 +3,14 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <fstream>
-#include <sstream>
 
 #include "replay/commands.hpp"
 #include "replay/console.hpp"
 #include "replay/exit_status.hpp"
-#include "replay/output/records.hpp"
 #include "replay/output/targets.hpp"
-#include "replay/results_reader.hpp"
+#include "replay/results_index.hpp"
 
 namespace servotrace::replay {
-namespace {
-
-// Everything a capture's results say: what orders captures of one name.
-std::string content(const CaptureRecord& capture) {
-  std::string text;
-  JsonWriter json(text);
-  json.begin_object();
-  write_capture(json, capture);
-  for (const FindingRecord& finding : capture.findings) {
-    json.key("finding").begin_object();
-    write_finding(json, finding);
-    json.end_object();
-  }
-  json.end_object();
-  return text;
-}
-
-}  // namespace
 
 int run_merge(const Arguments& arguments) {
   CLI::App app("Joins the results of many checks (--output jsonl) into one.", "servotrace merge");
@@ -61,26 +39,14 @@ int run_merge(const Arguments& arguments) {
     complain(Error{"--fail-on", fmt::format("'{}': must be error, warning, note or never", fail_on)});
     return kExitFailed;
   }
-  Results results;
+  ResultsIndex results;
   for (const std::string& file : files) {
-    std::ifstream stream(file, std::ios::binary);
-    std::error_code code;
-    if (!stream || std::filesystem::is_directory(file, code)) {
-      complain(Error{file, "cannot be opened"});
-      return kExitFailed;
-    }
-    std::ostringstream text;
-    text << stream.rdbuf();
-    if (const Result<void> parsed = parse_results(text.str(), file, results); !parsed) {
-      complain(parsed.error());
+    if (const Result<void> added = results.add(file); !added) {
+      complain(added.error());
       return kExitFailed;
     }
   }
-  std::vector<const CaptureRecord*> order;
-  for (const CaptureRecord& capture : results.captures) order.push_back(&capture);
-  std::sort(order.begin(), order.end(), [](const CaptureRecord* left, const CaptureRecord* right) {
-    return left->file != right->file ? left->file < right->file : content(*left) < content(*right);
-  });
+  results.sort();
   Result<Targets> targets =
       Targets::open(outputs, "jsonl", {.style = Style(false), .fail_on = severity, .statistics = statistics});
   if (!targets) {
@@ -89,11 +55,16 @@ int run_merge(const Arguments& arguments) {
   }
   targets->begin();
   RunTotals totals;
-  for (const CaptureRecord* const capture : order) {
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const Result<CaptureRecord> capture = results.read(i);
+    if (!capture) {
+      complain(capture.error());
+      return kExitFailed;
+    }
     totals.add(*capture);
     targets->capture(*capture);
   }
-  totals.status = worse_status(totals.status, results.status);
+  totals.status = worse_status(totals.status, results.status());
   targets->end(totals);
   if (const Result<void> finished = targets->finish(); !finished) {
     complain(finished.error());

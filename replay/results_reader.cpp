@@ -143,47 +143,44 @@ StatisticRecord statistic_of(const json& line) {
 
 }  // namespace
 
-Result<void> parse_results(std::string_view text, const std::string& origin, Results& results) {
-  std::size_t number = 0;
-  bool ended = false;
-  const std::size_t first = results.captures.size();
-  while (!text.empty()) {
-    const std::size_t line_end = std::min(text.find('\n'), text.size());
-    const std::string_view line_text = text.substr(0, line_end);
-    text.remove_prefix(std::min(line_end + 1, text.size()));
-    ++number;
-    if (line_text.empty()) continue;
-    const auto wrong = [&](std::string_view what) {
-      return Error{fmt::format("{}:{}", origin, number), std::string(what)};
-    };
-    const json line = json::parse(line_text, nullptr, false);
-    if (line.is_discarded() || !line.is_object())
-      return wrong("is no JSON object: only results of '--output jsonl' merge");
-    const std::string type = text_of(line, "type");
-    if (type == "end") {
-      results.status = worse_status(
-          results.status, static_cast<int>(std::min<std::uint64_t>(number_of(line, "exit_status"), kExitNothing)));
-      ended = true;
-      continue;
-    }
-    if (type == "capture") {
-      results.captures.push_back(capture_of(line));
-      continue;
-    }
-    if (results.captures.size() == first || results.captures.back().file != text_of(line, "file")) {
-      return wrong("stands behind no 'capture' line of its file");
-    }
-    CaptureRecord& capture = results.captures.back();
-    const std::optional<RuleId> rule = rule_of(line);
-    if ((type == "finding" || type == "rule") && !rule) {
-      return wrong(fmt::format("rule '{}' is not known to this version", text_of(line, "rule")));
-    }
-    if (type == "finding") capture.findings.push_back(finding_of(line, *rule));
-    if (type == "rule") capture.rules.push_back({*rule, number_of(line, "checked"), number_of(line, "findings")});
-    if (type == "node") capture.nodes.push_back(node_record_of(line));
-    if (type == "statistic") capture.statistics.push_back(statistic_of(line));
+Error ResultsReader::wrong(std::string what) const {
+  return Error{fmt::format("{}:{}", origin_, line_), std::move(what)};
+}
+
+Result<ResultsReader::Line> ResultsReader::take(std::string_view text) {
+  ++line_;
+  if (text.empty()) return Line::kMore;
+  const json line = json::parse(text, nullptr, false);
+  if (line.is_discarded() || !line.is_object())
+    return wrong("is no JSON object: only results of '--output jsonl' merge");
+  const std::string type = text_of(line, "type");
+  if (type == "end") {
+    status_ =
+        worse_status(status_, static_cast<int>(std::min<std::uint64_t>(number_of(line, "exit_status"), kExitNothing)));
+    ended_ = true;
+    return Line::kEnd;
   }
-  if (!ended) return Error{origin, "has no 'end' line: the check that wrote it did not finish"};
+  if (type == "capture") {
+    capture_ = capture_of(line);
+    has_capture_ = true;
+    return Line::kCapture;
+  }
+  if (!has_capture_ || capture_.file != text_of(line, "file")) {
+    return wrong("stands behind no 'capture' line of its file");
+  }
+  const std::optional<RuleId> rule = rule_of(line);
+  if ((type == "finding" || type == "rule") && !rule) {
+    return wrong(fmt::format("rule '{}' is not known to this version", text_of(line, "rule")));
+  }
+  if (type == "finding") capture_.findings.push_back(finding_of(line, *rule));
+  if (type == "rule") capture_.rules.push_back({*rule, number_of(line, "checked"), number_of(line, "findings")});
+  if (type == "node") capture_.nodes.push_back(node_record_of(line));
+  if (type == "statistic") capture_.statistics.push_back(statistic_of(line));
+  return Line::kMore;
+}
+
+Result<void> ResultsReader::finish() const {
+  if (!ended_) return Error{origin_, "has no 'end' line: the check that wrote it did not finish"};
   return {};
 }
 

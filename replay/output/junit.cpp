@@ -2,12 +2,11 @@
 // JUnit XML: a suite a capture, a test case a rule; skipped where the capture gave it no opportunity.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <iterator>
-#include <vector>
 
 #include "decoder/render/json.hpp"
 #include "replay/output/output.hpp"
+#include "replay/output/spool.hpp"
 
 namespace servotrace::replay {
 namespace {
@@ -51,13 +50,25 @@ class Junit : public Output {
   Junit(Out& out, const OutputOptions& options) : Output(out), fail_on_(options.fail_on) {}
 
   void capture(const CaptureRecord& capture) override {
-    Suite& suite = suites_.emplace_back();
-    suite.file = escaped(capture.file);
-    suite.error = escaped(capture.error);
-    if (!capture.error.empty()) ++errors_;
-    for (const RuleRecord& rule : capture.rules) add_case(suite, capture, rule);
-    tests_ += suite.tests();
-    failures_ += suite.failures;
+    const std::string file = escaped(capture.file);
+    Counts counts;
+    std::string cases;
+    if (!capture.error.empty()) {
+      ++counts.tests;
+      ++errors_;
+      cases = fmt::format(
+          "    <testcase classname=\"{}\" name=\"capture\" time=\"0\">\n"
+          "      <error message=\"{}\" type=\"unreadable\"/>\n    </testcase>\n",
+          file, escaped(capture.error));
+    }
+    for (const RuleRecord& rule : capture.rules) add_case(cases, counts, capture, file, rule);
+    suites_.write(
+        fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\" time=\"0\">\n",
+                    file, counts.tests, counts.failures, capture.error.empty() ? 0 : 1, counts.skipped));
+    suites_.write(cases);
+    suites_.write("  </testsuite>\n");
+    tests_ += counts.tests;
+    failures_ += counts.failures;
   }
 
   void end(const RunTotals&) override {
@@ -65,85 +76,52 @@ class Junit : public Output {
         fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"servotrace\" tests=\"{}\" "
                     "failures=\"{}\" errors=\"{}\" time=\"0\">\n",
                     tests_, failures_, errors_));
-    for (const Suite& suite : suites_) write(suite);
+    suites_.copy_to(out());
     out().write("</testsuites>\n");
   }
 
  private:
-  enum class Kind : std::uint8_t { kSkipped, kPassed, kTold };
-  struct Case {
-    RuleId rule{};
-    Kind kind = Kind::kSkipped;
-  };
-  // The counts stand in front of the cases, so a suite is kept; a case that has nothing to tell takes four bytes of it.
-  struct Suite {
-    std::string file;
-    std::string error;
-    std::vector<Case> cases;
-    std::vector<std::string> told;  // what stands inside the cases of kTold, in their order
+  // Of a suite.
+  struct Counts {
+    std::uint64_t tests = 0;
     std::uint64_t failures = 0;
-
-    std::uint64_t tests() const { return cases.size() + (error.empty() ? 0 : 1); }
-    std::uint64_t skipped() const {
-      return static_cast<std::uint64_t>(
-          std::count_if(cases.begin(), cases.end(), [](const Case& entry) { return entry.kind == Kind::kSkipped; }));
-    }
+    std::uint64_t skipped = 0;
   };
 
-  void add_case(Suite& suite, const CaptureRecord& capture, const RuleRecord& rule) {
-    if (rule.findings == 0) {
-      suite.cases.push_back({rule.rule, rule.checked == 0 ? Kind::kSkipped : Kind::kPassed});
+  void add_case(std::string& text, Counts& counts, const CaptureRecord& capture, const std::string& file,
+                const RuleRecord& rule) const {
+    const Rule& row = rule_row(rule.rule);
+    const auto to = std::back_inserter(text);
+    ++counts.tests;
+    fmt::format_to(to, "    <testcase classname=\"{}\" name=\"{} {}\" time=\"0\"", file, row.id, row.slug);
+    if (rule.findings == 0 && rule.checked == 0) {
+      ++counts.skipped;
+      text += ">\n      <skipped/>\n    </testcase>\n";
       return;
     }
-    const Rule& row = rule_row(rule.rule);
     std::string lines;
     const FindingRecord* worst = nullptr;
     for (const FindingRecord& finding : capture.findings) {
+      if (rule.findings == 0) break;
       if (finding.rule != rule.rule) continue;
       if (worst == nullptr || finding.severity > worst->severity) worst = &finding;
       const std::string who = capture.who(finding.node);
       fmt::format_to(std::back_inserter(lines), "frame {}: {}: {}{}{}\n", finding.frame, name_of(finding.severity), who,
                      who.empty() ? "" : ": ", finding.message);
     }
-    const bool fails = worst != nullptr && fail_on_ && worst->severity >= *fail_on_;
-    suite.cases.push_back({rule.rule, worst == nullptr ? Kind::kPassed : Kind::kTold});
-    if (worst == nullptr) return;
-    if (fails) ++suite.failures;
-    suite.told.push_back(fails ? fmt::format("      <failure message=\"{}: {}\" type=\"{}\">{}</failure>\n",
-                                             plural(rule.findings, "finding"), escaped(row.title),
-                                             name_of(worst->severity), escaped(lines))
-                               : fmt::format("      <system-out>{}</system-out>\n", escaped(lines)));
-  }
-
-  void write(const Suite& suite) {
-    std::string text =
-        fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\" time=\"0\">\n",
-                    suite.file, suite.tests(), suite.failures, suite.error.empty() ? 0 : 1, suite.skipped());
-    const auto to = std::back_inserter(text);
-    if (!suite.error.empty()) {
-      fmt::format_to(to,
-                     "    <testcase classname=\"{}\" name=\"capture\" time=\"0\">\n"
-                     "      <error message=\"{}\" type=\"unreadable\"/>\n    </testcase>\n",
-                     suite.file, suite.error);
+    if (worst == nullptr) {
+      text += "/>\n";
+    } else if (fail_on_ && worst->severity >= *fail_on_) {
+      ++counts.failures;
+      fmt::format_to(to, ">\n      <failure message=\"{}: {}\" type=\"{}\">{}</failure>\n    </testcase>\n",
+                     plural(rule.findings, "finding"), escaped(row.title), name_of(worst->severity), escaped(lines));
+    } else {
+      fmt::format_to(to, ">\n      <system-out>{}</system-out>\n    </testcase>\n", escaped(lines));
     }
-    auto told = suite.told.begin();
-    for (const Case& entry : suite.cases) {
-      const Rule& row = rule_row(entry.rule);
-      fmt::format_to(to, "    <testcase classname=\"{}\" name=\"{} {}\" time=\"0\"", suite.file, row.id, row.slug);
-      if (entry.kind == Kind::kPassed) {
-        text += "/>\n";
-      } else {
-        fmt::format_to(
-            to, ">\n{}    </testcase>\n",
-            entry.kind == Kind::kSkipped ? std::string_view("      <skipped/>\n") : std::string_view(*told++));
-      }
-    }
-    text += "  </testsuite>\n";
-    out().write(text);
   }
 
   std::optional<Severity> fail_on_;
-  std::vector<Suite> suites_;
+  Spool suites_;  // the counts of all stand in front of them
   std::uint64_t tests_ = 0;
   std::uint64_t failures_ = 0;
   std::uint64_t errors_ = 0;

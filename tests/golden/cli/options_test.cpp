@@ -90,6 +90,50 @@ TEST_F(Options, MemoryDoesNotGrowWithTheCaptures) {
   }
 }
 
+// merge reads capture by capture, and what JUnit has to keep waits on the disk.
+TEST_F(Options, MemoryDoesNotGrowWithTheFindings) {
+  program.simulate("cp104_malformed_records", "run");
+  ASSERT_EQ(program.run({"check", "run.pcapng", "--output", "jsonl=one.jsonl"}).status, 0);
+  std::istringstream one(program.read("one.jsonl"));
+  std::string capture, finding, end;
+  for (std::string line; std::getline(one, line);) {
+    if (line.find("\"type\":\"capture\"") != std::string::npos) capture = line + "\n";
+    if (line.find("\"type\":\"finding\"") != std::string::npos) finding = line + "\n";
+    if (line.find("\"type\":\"end\"") != std::string::npos) end = line + "\n";
+  }
+  const std::string rule =
+      "{\"type\":\"rule\",\"file\":\"run.pcapng\",\"rule\":\"CP104\",\"checked\":1,\"findings\":100}\n";
+  std::string all;
+  for (int i = 0; i < 500; ++i) {
+    all += capture;
+    for (int k = 0; k < 100; ++k) all += finding;
+    all += rule;
+  }
+  program.write("few.jsonl", capture + finding + rule + end);
+  program.write("all.jsonl", all + end);
+  for (const std::string format : {"jsonl", "junit", "sarif"}) {
+    const long few = program.run({"merge", "few.jsonl", "--output", format + "=out"}).peak_kb;
+    const Outcome many = program.run({"merge", "all.jsonl", "--output", format + "=out"});
+    EXPECT_EQ(many.status, 0) << many.err;
+#if !defined(__SANITIZE_ADDRESS__)
+    EXPECT_LT(many.peak_kb, few + 16 * 1024) << format;
+#else
+    static_cast<void>(few);
+#endif
+  }
+}
+
+TEST_F(Options, MergeReadsAPipe) {
+  program.simulate("cp104_malformed_records", "run");
+  program.simulate("rtex_clean", "clean");
+  ASSERT_EQ(program.run({"check", "run.pcapng", "--output", "jsonl=b.jsonl"}).status, 0);
+  ASSERT_EQ(program.run({"check", "clean.pcapng", "--output", "jsonl=a.jsonl"}).status, 0);
+  const Outcome piped = program.shell("servotrace merge b.jsonl <(cat a.jsonl)");
+  EXPECT_EQ(piped.status, 0) << piped.err;
+  EXPECT_EQ(piped.out, program.run({"merge", "a.jsonl", "b.jsonl"}).out);
+  EXPECT_THAT(piped.out, EndsWith("\"captures\":2,\"exit_status\":0}\n"));
+}
+
 TEST_F(Options, OptionsStandBeforeBetweenAndBehindTheCaptures) {
   program.simulate("cp102_time_backwards", "run");
   program.simulate("rtex_clean", "clean");
