@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "replay/capture/cooked_can.hpp"
+#include "replay/capture/interrupt.hpp"
 #include "replay/capture/pcapng_writer.hpp"
 #include "replay/commands.hpp"
 #include "replay/console.hpp"
@@ -121,8 +122,11 @@ int run_annotate(const Arguments& arguments) {
   const Result<std::unique_ptr<PcapngWriter>> writer = PcapngWriter::create(out_path);
   if (!writer) return fail(writer.error());
   Annotator annotator(**writer, **settings, *selection);
-  const CaptureResult result =
-      run(**source, input->name, (*settings)->decoder, {.visitor = &annotator, .stop = {}, .on_progress = {}});
+  catch_interrupts();
+  const CaptureResult result = run(**source, input->name, (*settings)->decoder,
+                                   {.visitor = &annotator, .stop = &interrupted(), .on_progress = {}});
+  // A stream that is interrupted ends like a capture.
+  if (result.stopped && !input->is_stream()) return fail(not_written({"", "interrupted"}, out_path));
   if (result.error) return fail(not_written(*result.error, out_path));
   annotator.finish();
   if (const Result<void> written = (*writer)->finish(); !written) return fail(written.error());

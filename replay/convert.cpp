@@ -10,6 +10,7 @@
 
 #include "decoder/link/rtex_record.hpp"
 #include "replay/capture/cooked_can.hpp"
+#include "replay/capture/interrupt.hpp"
 #include "replay/capture/pcapng_writer.hpp"
 #include "replay/capture/rtex_log.hpp"
 #include "replay/commands.hpp"
@@ -194,10 +195,15 @@ int run_convert(const Arguments& arguments) {
   Converter converter(**writer, carriers.at(carrier_word), (*settings)->decoder.rtex, opened->log != nullptr);
   RawFrame frame;
   Source::Step step = Source::Step::kEnd;
-  while ((step = source.next(frame)) == Source::Step::kFrame) converter.take(frame, source);
-  if (step == Source::Step::kError) return fail(not_written(source.error(), out_path));
+  catch_interrupts();
+  while (!interrupted() && (step = source.next(frame)) == Source::Step::kFrame) converter.take(frame, source);
+  // A stream that is interrupted ends like a capture.
+  const bool stopped = interrupted();
+  if (stopped && !input->is_stream()) return fail(not_written({"", "interrupted"}, out_path));
+  if (!stopped && step == Source::Step::kError) return fail(not_written(source.error(), out_path));
   if (const Result<void> written = (*writer)->finish(); !written) return fail(written.error());
-  if (source.truncation()) complain(Error{input->name, "ends inside a record: what came before it was converted"});
+  if (source.truncation() && !stopped)
+    complain(Error{input->name, "ends inside a record: what came before it was converted"});
   if (opened->log != nullptr && opened->log->incomplete() != 0) {
     complain(Error{input->name, fmt::format("{} records left out: the rows of some axes are missing in their cycles",
                                             opened->log->incomplete())});

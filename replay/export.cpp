@@ -7,6 +7,7 @@
 #include <map>
 
 #include "decoder/render/value.hpp"
+#include "replay/capture/interrupt.hpp"
 #include "replay/capture/whole_file.hpp"
 #include "replay/commands.hpp"
 #include "replay/console.hpp"
@@ -201,6 +202,7 @@ int run_export(const Arguments& arguments) {
   SeriesList list;
   Finder finder(list, !csv);
   const CaptureResult found = run_input(*input, decoder, {.visitor = &finder, .stop = {}, .on_progress = {}});
+  catch_interrupts();
   if (found.error) return fail(not_written(*found.error, out_path));
   if (found.summary.checked_frames == 0) {
     complain(Error{input->name, "no frame of a known bus"});
@@ -211,12 +213,13 @@ int run_export(const Arguments& arguments) {
   if (!file) return fail(file.error());
   if (csv) {
     CsvWriter writer(list, series, found.first_time_ns.value_or(0), **file);
-    run_input(*input, decoder, {.visitor = &writer, .stop = {}, .on_progress = {}});
+    run_input(*input, decoder, {.visitor = &writer, .stop = &interrupted(), .on_progress = {}});
   } else {
     TraceWriter writer(list, series, **file);
-    run_input(*input, decoder, {.visitor = &writer, .stop = {}, .on_progress = {}});
+    run_input(*input, decoder, {.visitor = &writer, .stop = &interrupted(), .on_progress = {}});
     writer.finish();
   }
+  if (interrupted()) return fail(not_written({"", "interrupted"}, out_path));
   if (const Result<void> written = (*file)->finish(); !written) return fail(written.error());
   return kExitClean;
 }

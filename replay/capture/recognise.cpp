@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "replay/capture/csv.hpp"
+#include "replay/capture/interrupt.hpp"
 #include "replay/capture/text_source.hpp"
 
 namespace servotrace::replay {
@@ -163,7 +164,7 @@ Result<Kind> recognise(Input& input, const std::string& name, bool* foreign_capt
   constexpr std::size_t kSample = 512;  // bytes that tell text from other content
   const Bytes first = input.peek(4);
   if (input.failure()) return Error{name, *input.failure()};
-  if (first.empty()) return Error{name, "is empty"};
+  if (first.empty()) return Error{name, interrupted() ? "was interrupted before anything came" : "is empty"};
   for (const Signature& signature : kRead) {
     if (has(input, signature.offset, signature.bytes)) return signature.kind;
   }

@@ -20,7 +20,7 @@ _servotrace() {
       fi ;;
   esac
   if [[ $word == -* ]]; then
-    mapfile -t COMPREPLY < <(compgen -W "$(servotrace "$command" --help 2>/dev/null | grep -oE -- '--[a-z][a-z-]*')" \
+    mapfile -t COMPREPLY < <(compgen -W "$(servotrace "$command" --help 2>/dev/null | grep -oE -- '--[a-z][a-z-]*' | sort -u)" \
       -- "$word")
   elif [[ $command == explain ]]; then
     mapfile -t COMPREPLY < <(compgen -W "$(servotrace rules | cut -d' ' -f1)" -- "$word")

@@ -66,5 +66,36 @@ TEST_F(Interrupted, AStreamEndsWithItsSummary) {
   EXPECT_THAT(outcome.out, HasSubstr("\nfindings: 0 errors, 1 warning, 0 notes in "));
 }
 
+// The fifo gives the first half of a capture and stays open: a named one is a file that was not read to its end, on
+// standard input it is a stream that ends here.
+TEST_F(Interrupted, AFileIsMadeOfAStreamAndOfAWholeCapture) {
+  program.simulate("rtex_clean", "run");
+  for (const std::string command : {"convert", "annotate"}) {
+    program.write(
+        "run.sh",
+        "rm -f pipe; mkfifo pipe; (head -c 20000 run.pcapng; sleep 20) >pipe & feeder=$!\n"
+        "servotrace " +
+            command +
+            " $1 -o out.pcapng <${2:-/dev/null} & pid=$!\n"
+            "for i in $(seq 100); do ls .out.pcapng.*.tmp >/dev/null 2>&1 && break; sleep 0.05; done; sleep 0.2\n"
+            "kill -INT $pid; wait $pid; status=$?; kill $feeder; exit $status\n");
+    const Outcome file = program.shell("timeout -k 1 30 bash run.sh pipe");
+    EXPECT_EQ(file.status, 2) << command;
+    EXPECT_THAT(file.err, HasSubstr("servotrace: interrupted; out.pcapng is not written\n")) << command;
+    EXPECT_EQ(program.shell("ls -A | grep out.pcapng").out, "") << command;
+    const Outcome stream = program.shell("timeout -k 1 30 bash run.sh - pipe");
+    EXPECT_EQ(stream.status, 0) << command << stream.err;
+    EXPECT_EQ(program.run({"check", "out.pcapng"}).status, 0) << command;
+    std::filesystem::remove(program.folder() / "out.pcapng");
+  }
+}
+
+TEST_F(Interrupted, AStreamThatBringsNothingSaysSo) {
+  const Outcome outcome = program.shell(
+      "mkfifo pipe; servotrace check - <pipe & pid=$!; exec 3>pipe; sleep 0.5; kill -INT $pid; wait $pid");
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, StartsWith("servotrace: -: was interrupted before anything came\n"));
+}
+
 }  // namespace
 }  // namespace servotrace::test
