@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Options of `check` that need a terminal, a log, a compressed file or many findings; and that each is documented.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,6 +13,7 @@
 #include <set>
 #include <sstream>
 
+#include "replay/settings/limit_rows.hpp"
 #include "tests/support/paths.hpp"
 #include "tests/support/program.hpp"
 
@@ -273,6 +275,46 @@ TEST_F(Options, EveryOptionHasItsPlaceInTheManualAndTheHelpHasExamples) {
     ++commands;
   }
   EXPECT_GE(commands, 12U);
+}
+
+// The page of servotrace.toml names every limit with its default, and every other key.
+TEST_F(Options, EverySettingHasItsPlaceInTheManual) {
+  std::ifstream file(source_dir() / "replay" / "man" / "servotrace.toml.5");
+  const std::string manual((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  const Limits defaults;
+  for (const replay::LimitRow& row : replay::kLimitRows) {
+    EXPECT_TRUE(
+        std::regex_search(manual, std::regex(fmt::format("\\n\\.B {}\\n{}(;|\\n)", row.key, defaults.*row.member))))
+        << row.key;
+  }
+  // The keys a mistake is told of: what the program takes.
+  for (const std::string table :
+       {"[rtex]", "[[rtex.axis]]", "[[devicenet.node]]", "[limits]", "[rules]", "[[suppress]]"})
+    EXPECT_THAT(manual, HasSubstr(table));
+  for (const std::string key : {"communication_cycle_us",
+                                "command_update_ratio",
+                                "sync",
+                                "user_link_type",
+                                "ethertype",
+                                "udp_port",
+                                "mac_id",
+                                "ring",
+                                "name",
+                                "data_size",
+                                "control",
+                                "position",
+                                "parameters",
+                                "inputs",
+                                "max_speed",
+                                "profile",
+                                "moving_speed",
+                                "ignore",
+                                "severity",
+                                "rule",
+                                "reason",
+                                "until"}) {
+    EXPECT_TRUE(std::regex_search(manual, std::regex("\\n\\.BR? [^\\n]*\\b" + key + "\\b"))) << key;
+  }
 }
 
 }  // namespace
