@@ -80,6 +80,7 @@ class DescriptorInput final : public BufferedInput {
   // False once the run was interrupted. The signal may come to any thread and just before the wait, so the flag is
   // looked at again and again.
   bool wait_for_bytes() const {
+    if (descriptor_ < 0) return true;  // poll() would pass it over; read() tells
     constexpr int kLookEveryMs = 100;
     ::pollfd waiting{.fd = descriptor_, .events = POLLIN, .revents = 0};
     while (!interrupted()) {
