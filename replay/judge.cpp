@@ -24,6 +24,7 @@ Result<Selection> Selection::make(const std::vector<std::string>& select, const 
     if (!actor) return Error{"--actor", fmt::format("'{}': must be master, drive, network or capture", word)};
     selection.actors_.push_back(*actor);
   }
+  selection.fail_on_.reset();
   if (fail_on != "never") {
     selection.fail_on_ = severity_of(fail_on);
     if (!selection.fail_on_) {

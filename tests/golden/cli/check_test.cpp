@@ -57,6 +57,9 @@ TEST_F(Check, FailOnDecidesTheStatus) {
   EXPECT_EQ(program.run({"check", "run.pcapng", "--fail-on", "warning"}).status, 1);
   EXPECT_EQ(program.run({"check", "run.pcapng", "--fail-on", "note"}).status, 1);
   EXPECT_EQ(program.run({"check", "run.pcapng", "--fail-on", "never"}).status, 0);
+  program.simulate("rx902_alarm", "alarm");
+  EXPECT_EQ(program.run({"check", "alarm.pcapng"}).status, 1);
+  EXPECT_EQ(program.run({"check", "alarm.pcapng", "--fail-on", "never"}).status, 0) << "not even for an error";
   const Outcome wrong = program.run({"check", "run.pcapng", "--fail-on", "fatal"});
   EXPECT_EQ(wrong.status, 2);
   EXPECT_EQ(wrong.err, "servotrace: --fail-on: 'fatal': must be error, warning, note or never\n");
