@@ -62,6 +62,8 @@ TEST_P(Live, FindingsAsTheyHappenAndASummaryOnCtrlC) {
   ASSERT_EQ(program.run({"convert", "run.pcapng", "-o", "carried.pcapng", "--carrier", carrier}).status, 0);
   write_frames("carried.pcapng");
   program.write("send.py", kSender);
+  // The sender sleeps as a loaded machine lets it: a pause is no lost ring here (RX112 starts it anew).
+  program.write("servotrace.toml", "[limits]\ntimeout_cycles = 100000\n");
   program.write("live.sh",
                 "ip link set lo up && ip link add sv0 type veth peer name sv1 &&\n"
                 "ip link set sv0 up && ip link set sv1 up || exit 77\n"
