@@ -73,8 +73,10 @@ class AscSource final : public TextSource {
     unsigned places = 0;
     const auto time = parse_time(words.next(), kSecondNs, &places);
     if (!time) return Line::kNothing;
-    offset_ns_ = relative_ ? offset_ns_ + *time : *time;
-    record.time_ns = start_ns_ + offset_ns_;
+    if (!relative_) offset_ns_ = 0;
+    if (__builtin_add_overflow(offset_ns_, *time, &offset_ns_) ||
+        __builtin_add_overflow(start_ns_, offset_ns_, &record.time_ns))
+      return broken("its time is beyond the year 2262");
     record.resolution_ns = resolution_of(kSecondNs, places);
     const std::string_view first = words.next();
     if (lower(first) == "canfd") return fd_frame(words, record);

@@ -82,7 +82,8 @@ class TrcSource final : public TextSource {
         unsigned places = 0;
         const auto time = parse_time(word, kMillisecondNs, &places);
         if (!time) return refuse("its time is no number");
-        record.time_ns = start_ns_ + *time;
+        if (__builtin_add_overflow(start_ns_, *time, &record.time_ns))
+          return refuse("its time is beyond the year 2262");
         record.resolution_ns = resolution_of(kMillisecondNs, places);
         return true;
       }

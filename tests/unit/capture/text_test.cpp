@@ -153,6 +153,22 @@ TEST(Asc, BrokenLines) {
             "-:3: no CAN frame of an ASC log: its identifier is a name; record with numeric identifiers");
 }
 
+// Found by fuzzing: the sum of date and time did not fit.
+TEST(Asc, ATimeBeyondTheClock) {
+  const std::string head = "date Tue Nov 14 22:13:22 2023\nbase hex  timestamps ";
+  EXPECT_EQ(read_both(bytes_of(head + "absolute\n7777501252 1 5FF Rx d 0\n")).error,
+            "-:3: no CAN frame of an ASC log: its time is beyond the year 2262");
+  EXPECT_EQ(read_both(bytes_of(head + "relative\n7000000000 1 5FF Rx d 0\n7000000000 1 5FF Rx d 0\n")).error,
+            "-:4: no CAN frame of an ASC log: its time is beyond the year 2262");
+}
+
+TEST(Trc, ATimeBeyondTheClock) {
+  EXPECT_EQ(read_both(bytes_of(";$FILEVERSION=1.1\n;$STARTTIME=45244.5;\n;\n"
+                               "     1) 7777501252000.0  Rx  0300  3  00 AB 01\n"))
+                .error,
+            "-:4: no line of a TRC log: its time is beyond the year 2262");
+}
+
 TEST(Trc, EveryVersion) {
   const std::string start = ";$STARTTIME=45244.5;\n;\n";  // 2023-11-14 12:00 UTC
   const std::int64_t noon = 1'699'963'200 * kSecond;
