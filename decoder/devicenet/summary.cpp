@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What is known of a bus and its nodes, for people.
+#include <cmath>
 #include <string>
 
 #include "decoder/devicenet/bus.hpp"
@@ -47,7 +48,7 @@ void add_bus_load(BusSummary& summary, std::int64_t rate, std::uint64_t bits, Du
   for (std::int64_t i = 0; i < 3; ++i) {
     if (rate >= 0 && i != rate) continue;
     const double used_ms = static_cast<double>(bits) / static_cast<double>(kKilobits[i]);
-    const auto tenths = static_cast<std::int64_t>(used_ms * 1e9 / static_cast<double>(span_ns) + 0.5);
+    const auto tenths = static_cast<std::int64_t>(std::llround(used_ms * 1e9 / static_cast<double>(span_ns)));
     std::string key = "bus_load_percent";
     if (rate < 0) key += "_at_" + std::to_string(kKilobits[i]) + "k";
     summary.facts.push_back(

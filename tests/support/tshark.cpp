@@ -12,6 +12,7 @@
 #include <iterator>
 
 #include "tests/support/paths.hpp"
+#include "tests/support/sanitized.hpp"
 
 namespace servotrace::test {
 namespace {
@@ -110,15 +111,15 @@ Ran Tshark::run(const std::vector<std::string>& arguments, const std::string& pr
   command += " WIRESHARK_PLUGIN_DIR=" + quoted((folder_ / "plugins").string());
   command += " WIRESHARK_ABORT_ON_DISSECTOR_BUG=1 WIRESHARK_ABORT_ON_TOO_MANY_ITEMS=1";
   // The stock program is not sanitized, so the sanitizers' library must be there before it.
-#if defined(__SANITIZE_ADDRESS__)
-  command +=
-      " ASAN_OPTIONS=detect_leaks=0 LD_PRELOAD=\"$(gcc -print-file-name=libasan.so):$(gcc "
-      "-print-file-name=libubsan.so)\"";
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-  command += " ASAN_OPTIONS=detect_leaks=0 LD_PRELOAD=\"$(clang -print-file-name=libclang_rt.asan-x86_64.so)\"";
+  if constexpr (kSanitized) {
+#if defined(__clang__)
+    command += " ASAN_OPTIONS=detect_leaks=0 LD_PRELOAD=\"$(clang -print-file-name=libclang_rt.asan-x86_64.so)\"";
+#else
+    command +=
+        " ASAN_OPTIONS=detect_leaks=0 LD_PRELOAD=\"$(gcc -print-file-name=libasan.so):$(gcc "
+        "-print-file-name=libubsan.so)\"";
 #endif
-#endif
+  }
   for (const std::string& setting : environment) command += " " + quoted(setting);
   if (::geteuid() == 0) command += " setpriv --reuid=65534 --regid=65534 --clear-groups";
   command += " " + quoted(program);
