@@ -63,7 +63,7 @@ TEST_F(Options, ColourFollowsTheTerminalAndNoColor) {
 }
 
 TEST_F(Options, ProgressTellsRateAndTimeLeft) {
-  make_many(kSanitized ? 300 : 1500);
+  make_many(kSanitized ? 100 : 1500);
   const Outcome always = program.run({"check", "many", "--progress", "always"});
   EXPECT_EQ(always.status, 0);
   EXPECT_TRUE(
