@@ -12,7 +12,6 @@ enum class Unit : std::uint8_t {
   kCommandUnit,           // RTEX: command units (SX-DSV02203 7-1)
   kCommandUnitPerSecond,  // RTEX: speed where Pr7.25 = 1
   kRevolutionsPerMinute,
-  kTenthPercent,  // torque as the drives send it: 0.1 %
   kPercent,
   kStep,                    // NS310: steps (SIE-C718-7 5.3)
   kStepPerSecond,           // NS310: steps/s
@@ -51,8 +50,6 @@ constexpr std::string_view symbol(Unit unit) {
       return "command units/s";
     case Unit::kRevolutionsPerMinute:
       return "r/min";
-    case Unit::kTenthPercent:
-      return "x0.1 %";
     case Unit::kPercent:
       return "%";
     case Unit::kStep:

@@ -38,7 +38,7 @@ void write_field(JsonWriter& json, const Field& field, std::int64_t raw, Bytes b
   json.member("label", field.label);
   if (slot_of(field).width == 0) {
     json.member(field.kind == Kind::kText ? "text" : "bytes",
-                field.kind == Kind::kText ? std::string(bytes.begin(), bytes.end()) : bytes_text(field, bytes));
+                field.kind == Kind::kText ? std::string(characters(bytes)) : bytes_text(field, bytes));
   } else {
     if (field.kind == Kind::kBool) {
       json.member("value", raw != 0);

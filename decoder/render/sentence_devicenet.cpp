@@ -117,6 +117,19 @@ NodeRef node_of(const Dissection& dissection) {
   return {};
 }
 
+// Of the message or the part of one that the frame holds.
+bool is_all_zero(const Dissection& dissection) {
+  bool any = false;
+  for (const Segment& segment : dissection.segments) {
+    if (segment.layout->key == "fragment") continue;
+    for (const std::uint8_t byte : dissection.bytes(segment)) {
+      if (byte != 0) return false;
+      any = true;
+    }
+  }
+  return any;
+}
+
 std::string flag_words(const Derived& entry) {
   if (entry.field->kind != Kind::kBool || entry.value == 0) return {};
   // Labels of fields are names; these two are said in full.
@@ -168,6 +181,7 @@ std::string devicenet_sentence(const Dissection& dissection, const Settings* set
     join(asked, ", ", asked_words(segment, bytes));
   }
   join(words, ", ", asked);
+  if (words.empty() && is_all_zero(dissection)) words = "all bits 0";
   const std::string_view why = derived_words(dissection, "allocation_error");
   if (!why.empty()) words += fmt::format(" ({})", why);
   join(text, ": ", words);

@@ -58,10 +58,10 @@ bool take_argument(Part& part, const Field& field, std::int64_t raw, Bytes under
         name != nullptr ? fmt::format(" {}", name->name) : fmt::format(" Pr{}.{:02}", raw >> 8 & 0xFF, raw & 0xFF);
   } else if (is_one_of(key, {"setting_data", "setting_data_echo", "parameter_value", "parameter_count"})) {
     part.value = quantity_text(field, raw);
+  } else if (is_one_of(key, {"monitor_select", "feedforward"})) {
+    part.value = value_text(field, raw);
   } else if (key == "characters") {
-    std::string text = bytes_text(field, under);
-    while (text.ends_with("\\x00\"")) text.erase(text.size() - 5, 4);
-    part.value = std::move(text);
+    part.value = bytes_text(field, under);
   } else if (is_one_of(key, {"error_code", "sub_error_code"})) {
     part.error = name_or(field, raw, "error");
   } else {

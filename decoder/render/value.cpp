@@ -107,6 +107,11 @@ std::string value_text(const Field& field, std::int64_t raw) {
   return unit.empty() ? number : fmt::format("{} {}", number, unit);
 }
 
+std::string_view characters(Bytes bytes) {
+  while (!bytes.empty() && bytes.back() == 0) bytes = bytes.first(bytes.size() - 1);
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
 std::string bytes_text(const Field& field, Bytes bytes) {
   std::string text;
   if (field.kind != Kind::kText) {
@@ -116,14 +121,14 @@ std::string bytes_text(const Field& field, Bytes bytes) {
     return text.empty() ? "none" : text;
   }
   text = "\"";
-  for (const std::uint8_t byte : bytes) {
-    if (byte == '"' || byte == '\\') {
+  for (const char c : characters(bytes)) {
+    if (c == '"' || c == '\\') {
       text += '\\';
-      text += static_cast<char>(byte);
-    } else if (byte >= 0x20 && byte < 0x7F) {
-      text += static_cast<char>(byte);
+      text += c;
+    } else if (c >= 0x20 && c < 0x7F) {
+      text += c;
     } else {
-      fmt::format_to(std::back_inserter(text), "\\x{:02X}", byte);
+      fmt::format_to(std::back_inserter(text), "\\x{:02X}", static_cast<std::uint8_t>(c));
     }
   }
   return text + "\"";

@@ -26,7 +26,10 @@ std::string number_text(const Field& field, std::int64_t raw);
 // The value as people read it: "31h (Z phase)", "12.5 r/min", "CP cyclic position (2)".
 std::string value_text(const Field& field, std::int64_t raw);
 
-// The same for bytes and text rows: "0A 1B", "\"NS310\"" (unprintable bytes as \xNN).
+// The characters of a text row: `bytes` without the NULs that fill them up.
+std::string_view characters(Bytes bytes);
+
+// value_text for bytes and text rows: "0A 1B", "\"NS310\"" (unprintable bytes as \xNN).
 std::string bytes_text(const Field& field, Bytes bytes);
 
 // Why is_violation() holds: "must be 0", "is none of the listed values", "must be 1 to 10"; empty where it does not.

@@ -80,7 +80,6 @@ std::string_view short_label(std::string_view label) {
 }
 
 std::string quantity_text(const Field& field, std::int64_t raw) {
-  if (field.unit == Unit::kTenthPercent) return scaled_text(raw, {1, 10}, 1) + " %";
   const std::string_view unit = field.unit == Unit::kCommandUnit ? std::string_view() : symbol(field.unit);
   return fmt::format("{}{}{}", number_text(field, raw), unit.empty() ? "" : " ", unit);
 }
@@ -98,8 +97,11 @@ std::string field_word(const Field& field, std::int64_t raw, Bytes under) {
   if (field.role == Role::kSignal) return fmt::format("{} {}", short_label(field.label), quantity_text(field, raw));
   if (is_flag(field)) {
     if (raw == 0) return {};
-    const std::string_view label = short_label(field.label);
-    if (name == nullptr) return std::string(label);
+    std::string label(short_label(field.label));
+    // Two meanings of one bit are one word.
+    for (std::size_t slash = label.find(" / "); slash != std::string::npos; slash = label.find(" / "))
+      label.replace(slash, 3, "/");
+    if (name == nullptr) return label;
     // "servo on" says what "Enable" is about, "successful" not what "PRM_STS" is.
     return is_abbreviation(label) ? fmt::format("{} {}", label, name->name) : std::string(name->name);
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "decoder/rtex/decode.hpp"
 
+#include <iterator>
+
 namespace servotrace::rtex {
 namespace {
 
@@ -18,6 +20,12 @@ const Layout& data1(std::uint8_t cyclic, const BlockFormat& format) {
       break;
   }
   return kRawData1;
+}
+
+// Pr7.23 bits 3 and 8 name three bits of the header.
+const Layout& response_header(const BlockFormat& format) {
+  if (!format.status_known) return kResponse;
+  return kResponseForms[(format.inhibit_swapped ? 1 : 0) + (format.ac_off ? 2 : 0)];
 }
 
 const Layout& arguments(std::uint8_t non_cyclic, std::uint16_t type_code) {
@@ -54,6 +62,7 @@ const Layout& parameter_layout(std::uint16_t index, const Layout& otherwise) {
   if (index == pr(7, 22)) return kPr722;
   if (index == pr(7, 23)) return kPr723;
   if (index == pr(7, 24)) return kPr724;
+  if (index >= pr(7, 29) && index < pr(7, 29) + std::size(kChoices)) return kChoices[index - pr(7, 29)];
   return otherwise;
 }
 
@@ -204,7 +213,7 @@ BlockLayouts layouts_of_response(Bytes block, BlockSize size, const BlockFormat&
   if (block.size() < static_cast<std::size_t>(size)) return list;
   const bool communication_error = is_communication_error(block);
   const auto non_cyclic = static_cast<std::uint8_t>(read(slot(kResponse, "non_cyclic_command_echo"), block));
-  add(list, kResponse);
+  add(list, response_header(format));
   add(list, response_data(0, format));
   if (communication_error) {
     add(list, kCommunicationError);

@@ -15,6 +15,9 @@ struct BlockFormat {
   std::array<std::uint8_t, 3> feedforward = {};  // Pr7.35 to Pr7.37: 0 none, 1 velocity, 2 torque
   bool speed_in_units = false;                   // Pr7.25 = 1
   bool limits_swapped = false;                   // Pr7.23 bit 7
+  bool status_known = false;                     // the next two are known, and not assumed
+  bool inhibit_swapped = false;                  // Pr7.23 bit 3
+  bool ac_off = false;                           // Pr7.23 bit 8
   bool operator==(const BlockFormat&) const = default;
 };
 

@@ -11,6 +11,7 @@ inline constexpr Field kEchoTimeField{.key = "echo_time_ns",
                                       .label = "Time until accepted",
                                       .width = 64,
                                       .kind = Kind::kSigned,
+                                      .role = Role::kSignal,
                                       .unit = Unit::kNanosecond,
                                       .section = "SX-DSV02203 3-3-4",
                                       .explanation = "from the first command of this code to its first echo"};
@@ -19,9 +20,30 @@ inline constexpr Field kCompletionTimeField{
     .label = "Time until completed",
     .width = 64,
     .kind = Kind::kSigned,
+    .role = Role::kSignal,
     .unit = Unit::kNanosecond,
     .section = "SX-DSV02203 3-3-4",
     .explanation = "from the first command of this code to the answer with its arguments and Busy = 0"};
+
+// Of a command record that follows the one before without a gap.
+inline constexpr Field kCycleTimeField{.key = "cycle_time_ns",
+                                       .label = "Time since the command record before",
+                                       .width = 64,
+                                       .kind = Kind::kSigned,
+                                       .unit = Unit::kNanosecond,
+                                       .section = "SX-DSV02203 3-1",
+                                       .explanation = "the communication cycle as it was recorded"};
+
+// Of a response with the actual position, in CP.
+inline constexpr Field kDeviationField{
+    .key = "deviation",
+    .label = "Command minus actual position",
+    .width = 32,
+    .kind = Kind::kSigned,
+    .role = Role::kSignal,
+    .unit = Unit::kCommandUnit,
+    .section = "SX-DSV02203 7-1",
+    .explanation = "the last command position less this actual position; the drive's own deviation is PERR (6-9-1)"};
 
 // Of a command block that holds a non-cyclic command.
 inline constexpr ValueName kHandshakeNames[] = {{1, "waiting for echo"}, {2, "in process"}};

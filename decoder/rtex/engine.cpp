@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "decoder/pipeline/rules.hpp"
+#include "decoder/rtex/derived.hpp"
 
 namespace servotrace::rtex {
 namespace {
@@ -247,8 +248,18 @@ void Engine::decode(const Context& context, const Node& node, Bytes block, std::
   // A response without C/R is no drive's answer yet (4-3-2): its MAC-ID says nothing, the command of the place does.
   const bool named = !response || read(slot(kResponse, "cr"), block) != 0 || ref.mac_id == kNoMacId;
   if (!node.mac_known && named) ref.mac_id = static_cast<std::int16_t>(read(slot(kCommand, "mac_id"), block));
-  decode_block(response ? layouts_of_response(block, size, node.format) : layouts_of_command(block, size, node.format),
-               block_at, ref, response ? Direction::kResponse : Direction::kCommand, *context.dissection);
+  const BlockLayouts layouts =
+      response ? layouts_of_response(block, size, node.format) : layouts_of_command(block, size, node.format);
+  decode_block(layouts, block_at, ref, response ? Direction::kResponse : Direction::kCommand, *context.dissection);
+  // Positions wrap at 32 bits (7-1-4-2).
+  const bool has_position = response && layouts.count > 1 && layouts.words[1]->find("actual_position") != nullptr;
+  if (has_position && read(slot(kResponse, "cr"), block) != 0 && node.have_command &&
+      node.command.cyclic == static_cast<std::uint8_t>(Cyclic::kCp)) {
+    const auto distance =
+        static_cast<std::uint32_t>(node.command.data1) - static_cast<std::uint32_t>(load_le(block, kData1At, 4));
+    context.dissection->derived.push_back(
+        {.field = &kDeviationField, .protocol = "rtex", .value = static_cast<std::int32_t>(distance), .node = ref});
+  }
 }
 
 // RX609: only the end of the capture shows that nothing followed.

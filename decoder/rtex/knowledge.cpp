@@ -133,6 +133,11 @@ BlockFormat Knowledge::format() const {
     format.feedforward[i] = small(static_cast<Fact>(static_cast<std::size_t>(Fact::kForward1) + i));
   format.speed_in_units = (*this)[Fact::kSpeedUnit].value == 1;
   format.limits_swapped = (*this)[Fact::kLimitsSwapped].value == 1;
+  const Known& swapped = (*this)[Fact::kInhibitSwapped];
+  const Known& ac_off = (*this)[Fact::kAcOff];
+  format.status_known = swapped.certain() && ac_off.certain();
+  format.inhibit_swapped = format.status_known && swapped.value == 1;
+  format.ac_off = format.status_known && ac_off.value == 1;
   return format;
 }
 

@@ -11,6 +11,10 @@ namespace {
 
 constexpr const Layout* kFixed[] = {&kCommand,
                                     &kResponse,
+                                    &kResponseForms[0],
+                                    &kResponseForms[1],
+                                    &kResponseForms[2],
+                                    &kResponseForms[3],
                                     &kRawData1,
                                     &kTargetPosition,
                                     &kCommandPosition,
@@ -59,6 +63,15 @@ constexpr const Layout* kFixed[] = {&kCommand,
                                     &kPr722,
                                     &kPr723,
                                     &kPr724,
+                                    &kChoices[0],
+                                    &kChoices[1],
+                                    &kChoices[2],
+                                    &kChoices[3],
+                                    &kChoices[4],
+                                    &kChoices[5],
+                                    &kChoices[6],
+                                    &kChoices[7],
+                                    &kChoices[8],
                                     &kSubCommand,
                                     &kSubSystemId,
                                     &kSubMonitor,
@@ -122,8 +135,9 @@ constexpr auto kAll = [] {
 }();
 
 constexpr auto kDerived = [] {
-  std::array<const Field*, 3 + kSystemIdCount> all{&kEchoTimeField, &kCompletionTimeField, &kHandshakeField};
-  for (std::size_t i = 0; i < kSystemIdCount; ++i) all[3 + i] = &kSystemIds[i].field;
+  std::array<const Field*, 5 + kSystemIdCount> all{&kEchoTimeField, &kCompletionTimeField, &kCycleTimeField,
+                                                   &kDeviationField, &kHandshakeField};
+  for (std::size_t i = 0; i < kSystemIdCount; ++i) all[5 + i] = &kSystemIds[i].field;
   return all;
 }();
 

@@ -60,35 +60,73 @@ inline constexpr Field kCommandFields[] = {
 inline constexpr Layout kCommand = word("command", "RTEX command", kCommandFields, "SX-DSV02203 4-2");
 static_assert(well_formed(kCommand));
 
-// Response, bytes 0-3 (4-3)
-inline constexpr Field kResponseFields[] = {
-    number("mac_id", "Actual MAC-ID", at(0, 0), 5, "SX-DSV02203 4-3-2", "the rotary switch at power-up, no echo"),
-    number("update_counter_echo", "Update_Counter_Echo", at(0, 5), 2, "SX-DSV02203 4-3-2"),
-    flag("cr", "C/R", at(0, 7), "SX-DSV02203 4-3-2", "1 in a response"),
-    code("non_cyclic_command_echo", "Non-cyclic command echo", at(1, 0), 4, kNonCyclicNames, "SX-DSV02203 4-3-1"),
-    code("cyclic_command_echo", "Cyclic command echo", at(1, 4), 3, kCyclicNames, "SX-DSV02203 4-3-1"),
-    state("cmd_error", "CMD_Error", at(1, 7), "SX-DSV02203 4-3-1", "the command was refused"),
-    state("in_position", "In_Position", at(2, 0), "SX-DSV02203 4-3-3"),
-    state("in_progress", "In_Progress / AC_OFF", at(2, 1), "SX-DSV02203 4-3-3-2",
-          "Pr7.23 bit 8 = 0: a position command is being generated; 1: main power off alarm"),
-    state("homing_complete", "Homing_Complete", at(2, 2), "SX-DSV02203 4-3-3"),
-    state("torque_limited", "Torque_Limited", at(2, 3), "SX-DSV02203 4-3-3"),
-    state("warning", "Warning", at(2, 4), "SX-DSV02203 4-3-3"),
-    state("alarm", "Alarm", at(2, 5), "SX-DSV02203 4-3-3"),
-    state("servo_ready", "Servo_Ready", at(2, 6), "SX-DSV02203 4-3-3-1",
-          "main power on, no alarm, communication and servo synchronised"),
-    state("servo_active", "Servo_Active", at(2, 7), "SX-DSV02203 4-3-3", "the motor is energised"),
-    state("not_pot", "NOT / POT", at(3, 0), "SX-DSV02203 4-3-4", "POT where Pr7.23 bit 3 = 1"),
-    state("pot_not", "POT / NOT", at(3, 1), "SX-DSV02203 4-3-4", "NOT where Pr7.23 bit 3 = 1"),
-    state("home", "HOME", at(3, 2), "SX-DSV02203 4-3-4"),
-    state("si_mon1_ext1", "SI-MON1 / EXT1", at(3, 3), "SX-DSV02203 4-3-4"),
-    state("si_mon2_ext2", "SI-MON2 / EXT2", at(3, 4), "SX-DSV02203 4-3-4"),
-    state("si_mon3_ext3", "SI-MON3 / EXT3", at(3, 5), "SX-DSV02203 4-3-4"),
-    state("si_mon4_ex_son", "SI-MON4 / EX-SON", at(3, 6), "SX-DSV02203 4-3-4"),
-    state("si_mon5_e_stop", "SI-MON5 / E-STOP", at(3, 7), "SX-DSV02203 4-3-4"),
-};
+// Response, bytes 0-3 (4-3). Pr7.23 decides what bit 1 of byte 2 and bits 0 and 1 of byte 3 say (4-3-3-2, 4-3-4).
+constexpr Field status_bit_1(std::string_view label, std::string_view explanation) {
+  return state("in_progress", label, at(2, 1), "SX-DSV02203 4-3-3-2", explanation);
+}
+inline constexpr std::string_view kByInputs =
+    "what the input is assigned to (SX-DSV02202 9-1): one of the two, or always 0";
+constexpr auto response_fields(const Field& status_bit, std::string_view low, std::string_view low_explanation,
+                               std::string_view high, std::string_view high_explanation) {
+  return std::to_array<Field>({
+      number("mac_id", "Actual MAC-ID", at(0, 0), 5, "SX-DSV02203 4-3-2", "the rotary switch at power-up, no echo"),
+      number("update_counter_echo", "Update_Counter_Echo", at(0, 5), 2, "SX-DSV02203 4-3-2"),
+      flag("cr", "C/R", at(0, 7), "SX-DSV02203 4-3-2", "1 in a response"),
+      code("non_cyclic_command_echo", "Non-cyclic command echo", at(1, 0), 4, kNonCyclicNames, "SX-DSV02203 4-3-1"),
+      code("cyclic_command_echo", "Cyclic command echo", at(1, 4), 3, kCyclicNames, "SX-DSV02203 4-3-1"),
+      state("cmd_error", "CMD_Error", at(1, 7), "SX-DSV02203 4-3-1", "the command was refused"),
+      state("in_position", "In_Position", at(2, 0), "SX-DSV02203 4-3-3"),
+      status_bit,
+      state("homing_complete", "Homing_Complete", at(2, 2), "SX-DSV02203 4-3-3"),
+      state("torque_limited", "Torque_Limited", at(2, 3), "SX-DSV02203 4-3-3"),
+      state("warning", "Warning", at(2, 4), "SX-DSV02203 4-3-3"),
+      state("alarm", "Alarm", at(2, 5), "SX-DSV02203 4-3-3"),
+      state("servo_ready", "Servo_Ready", at(2, 6), "SX-DSV02203 4-3-3-1",
+            "main power on, no alarm, communication and servo synchronised"),
+      state("servo_active", "Servo_Active", at(2, 7), "SX-DSV02203 4-3-3", "the motor is energised"),
+      state("not_pot", low, at(3, 0), "SX-DSV02203 4-3-4", low_explanation),
+      state("pot_not", high, at(3, 1), "SX-DSV02203 4-3-4", high_explanation),
+      state("home", "HOME", at(3, 2), "SX-DSV02203 4-3-4"),
+      state("si_mon1_ext1", "SI-MON1 / EXT1", at(3, 3), "SX-DSV02203 4-3-4", kByInputs),
+      state("si_mon2_ext2", "SI-MON2 / EXT2", at(3, 4), "SX-DSV02203 4-3-4", kByInputs),
+      state("si_mon3_ext3", "SI-MON3 / EXT3", at(3, 5), "SX-DSV02203 4-3-4", kByInputs),
+      state("si_mon4_ex_son", "SI-MON4 / EX-SON", at(3, 6), "SX-DSV02203 4-3-4", kByInputs),
+      state("si_mon5_e_stop", "SI-MON5 / E-STOP", at(3, 7), "SX-DSV02203 4-3-4", kByInputs),
+  });
+}
+inline constexpr auto kResponseFields =
+    response_fields(status_bit_1("In_Progress / AC_OFF",
+                                 "Pr7.23 bit 8 = 0: a position command is being generated; 1: main power off alarm"),
+                    "NOT / POT", "POT where Pr7.23 bit 3 = 1", "POT / NOT", "NOT where Pr7.23 bit 3 = 1");
 inline constexpr Layout kResponse = word("response", "RTEX response", kResponseFields, "SX-DSV02203 4-3");
 static_assert(well_formed(kResponse));
+
+// The same where Pr7.23 is known: bit 3 of it, then bit 8.
+constexpr auto known_response_fields(bool swapped, bool ac_off) {
+  return response_fields(ac_off
+                             ? status_bit_1("AC_OFF", "main power off alarm; Pr7.23 bit 8 = 1")
+                             : status_bit_1("In_Progress", "a position command is being generated; Pr7.23 bit 8 = 0"),
+                         swapped ? "POT" : "NOT", swapped ? "Pr7.23 bit 3 = 1" : "Pr7.23 bit 3 = 0",
+                         swapped ? "NOT" : "POT", swapped ? "Pr7.23 bit 3 = 1" : "Pr7.23 bit 3 = 0");
+}
+inline constexpr auto kResponseFieldsIn = known_response_fields(false, false);
+inline constexpr auto kResponseFieldsSwapped = known_response_fields(true, false);
+inline constexpr auto kResponseFieldsOff = known_response_fields(false, true);
+inline constexpr auto kResponseFieldsSwappedOff = known_response_fields(true, true);
+inline constexpr Layout kResponseForms[] = {
+    word("response", "RTEX response (In_Progress; POT above NOT)", kResponseFieldsIn, "SX-DSV02203 4-3"),
+    word("response", "RTEX response (In_Progress; NOT above POT)", kResponseFieldsSwapped, "SX-DSV02203 4-3"),
+    word("response", "RTEX response (AC_OFF; POT above NOT)", kResponseFieldsOff, "SX-DSV02203 4-3"),
+    word("response", "RTEX response (AC_OFF; NOT above POT)", kResponseFieldsSwappedOff, "SX-DSV02203 4-3"),
+};
+// True for bytes 0-3 of a response, whatever is known of Pr7.23.
+constexpr bool is_response_header(const Layout& layout) {
+  if (&layout == &kResponse) return true;
+  for (const Layout& form : kResponseForms) {
+    if (&layout == &form) return true;
+  }
+  return false;
+}
 
 // --- Command_Data1, bytes 4-7 -----------------------------------------------------------------------------------
 inline constexpr Field kRawData1Fields[] = {hex("command_data1", "Command_Data1", 0, 32, "SX-DSV02203 4-2")};
@@ -110,7 +148,7 @@ inline constexpr Field kCommandSpeedUnitsFields[] = {
 inline constexpr Layout kCommandSpeedUnits =
     word("command", "Command_Data1 (CV)", kCommandSpeedUnitsFields, "SX-DSV02203 5-5");
 inline constexpr Field kCommandTorqueFields[] = {
-    signal("command_torque", "Command torque (CTRQ)", Unit::kTenthPercent, "SX-DSV02203 5-6")};
+    torque_signal("command_torque", "Command torque (CTRQ)", "SX-DSV02203 5-6")};
 inline constexpr Layout kCommandTorque = word("command", "Command_Data1 (CT)", kCommandTorqueFields, "SX-DSV02203 5-6");
 
 // --- Command_Data2, bytes 8-11 ----------------------------------------------------------------------------------
@@ -191,7 +229,7 @@ inline constexpr Field kVelocityForwardUnitsFields[] = {signal("velocity_feedfor
                                                                Unit::kCommandUnitPerSecond, "SX-DSV02203 7-7-2",
                                                                "Pr7.25 = 1")};
 inline constexpr Field kTorqueForwardFields[] = {
-    signal("torque_feedforward", "Torque feedforward (TFF)", Unit::kTenthPercent, "SX-DSV02203 7-7-2")};
+    torque_signal("torque_feedforward", "Torque feedforward (TFF)", "SX-DSV02203 7-7-2")};
 // [sub channel]
 inline constexpr Layout kVelocityForward[2] = {
     word("command", "Velocity feedforward", kVelocityForwardFields, "SX-DSV02203 7-7-1"),

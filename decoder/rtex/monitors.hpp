@@ -140,7 +140,6 @@ struct MonitorRow {
   bool any_index = false;
   bool speed = false;  // its unit is chosen by Pr7.25
 };
-inline constexpr Ratio kTenth{1, 10};
 
 inline constexpr MonitorRow kMonitors[] = {
     {0x01, 0x101,
@@ -152,8 +151,7 @@ inline constexpr MonitorRow kMonitors[] = {
             kMonitorSection)},
     {0x05, 0x105, signal("actual_speed", "Actual speed (ASPD)", Unit::kRevolutionsPerMinute, kMonitorSection), false,
      true},
-    {0x06, 0x106,
-     signal("torque", "Torque (TRQ)", Unit::kTenthPercent, kMonitorSection, "command torque to the motor")},
+    {0x06, 0x106, torque_signal("torque", "Torque (TRQ)", kMonitorSection, "command torque to the motor")},
     {0x07, 0, signal("actual_position", "Actual position (APOS)", Unit::kCommandUnit, kMonitorSection)},
     {0x08, 0,
      signal("internal_position", "Internal command position before filtering (IPOS)", Unit::kCommandUnit,

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The parameters SX-DSV02203 names, and the bits of Pr7.22 to Pr7.24. An index is class << 8 | number: Pr7.23 is 0717h.
+// The parameters SX-DSV02203 names, the bits of Pr7.22 to Pr7.24 and the choices of Pr7.29 to Pr7.37. An index is class
+// << 8 | number: Pr7.23 is 0717h.
 #pragma once
 
-#include "decoder/rtex/row.hpp"
+#include <array>
+
+#include "decoder/rtex/monitors.hpp"
 
 namespace servotrace::rtex {
 
@@ -154,5 +157,56 @@ inline constexpr Field kPr724Fields[] = {
 inline constexpr Layout kPr724 =
     word("pr7_24", "Pr7.24 RTEX function expansion setup 3", kPr724Fields, "SX-DSV02203 4-2-3-5");
 static_assert(well_formed(kPr724));
+
+// Pr7.29 to Pr7.34: the monitor that fills a word of the response, by its new Type_Code. 0 is what MINAS-A4N has there,
+// in the sub-channel nothing (4-3-1, 4-5-1).
+using MonitorSelectNames = std::array<ValueName, kShortMonitorCount + 1>;
+consteval MonitorSelectNames monitor_select_names(std::string_view by_default, std::string_view explanation) {
+  MonitorSelectNames names{};
+  names[0] = {0, by_default, explanation};
+  for (std::size_t i = 0; i < kShortMonitorCount; ++i) names[i + 1] = kShortMonitorTypes[i];
+  return names;
+}
+inline constexpr auto kSelect1Names = monitor_select_names("Actual position (APOS)", "0, as MINAS-A4N");
+inline constexpr auto kSelect2Names = monitor_select_names("Actual speed (ASPD)", "0, as MINAS-A4N");
+inline constexpr auto kSelect3Names = monitor_select_names("Torque (TRQ)", "0, as MINAS-A4N");
+inline constexpr auto kSubSelectNames = monitor_select_names("none", "0 is returned");
+
+constexpr Field choice(std::string_view key, std::string_view label, std::span<const ValueName> values,
+                       std::string_view section, std::string_view explanation) {
+  Field field = setting(key, label, section, explanation);
+  field.values = values;
+  return field;
+}
+inline constexpr Field kMonitorSelectFields[] = {
+    choice("monitor_select", "Pr7.29 RTEX monitor select 1", kSelect1Names, "SX-DSV02203 4-3-1", "Response_Data1"),
+    choice("monitor_select", "Pr7.30 RTEX monitor select 2", kSelect2Names, "SX-DSV02203 4-3-1", "Response_Data2"),
+    choice("monitor_select", "Pr7.31 RTEX monitor select 3", kSelect3Names, "SX-DSV02203 4-3-1", "Response_Data3"),
+    choice("monitor_select", "Pr7.32 RTEX monitor select 4", kSubSelectNames, "SX-DSV02203 4-5-1",
+           "Sub_Response_Data1"),
+    choice("monitor_select", "Pr7.33 RTEX monitor select 5", kSubSelectNames, "SX-DSV02203 4-5-1",
+           "Sub_Response_Data2"),
+    choice("monitor_select", "Pr7.34 RTEX monitor select 6", kSubSelectNames, "SX-DSV02203 4-5-1",
+           "Sub_Response_Data3"),
+};
+// Pr7.35 to Pr7.37: the feedforward a word of the command holds.
+inline constexpr ValueName kFeedforwards[] = {{0, "disabled"}, {1, "velocity feedforward"}, {2, "torque feedforward"}};
+inline constexpr Field kForwardChoiceFields[] = {
+    choice("feedforward", "Pr7.35 RTEX command setup 1", kFeedforwards, "SX-DSV02203 7-7-1", "Command_Data3"),
+    choice("feedforward", "Pr7.36 RTEX command setup 2", kFeedforwards, "SX-DSV02203 7-7-1", "Sub_Command_Data2"),
+    choice("feedforward", "Pr7.37 RTEX command setup 3", kFeedforwards, "SX-DSV02203 7-7-1", "Sub_Command_Data3"),
+};
+
+constexpr Layout choice_layout(std::string_view key, const Field& field) {
+  return word(key, field.label, std::span(&field, 1), field.section);
+}
+// Pr7.29 to Pr7.37, one after the other.
+inline constexpr Layout kChoices[] = {
+    choice_layout("pr7_29", kMonitorSelectFields[0]), choice_layout("pr7_30", kMonitorSelectFields[1]),
+    choice_layout("pr7_31", kMonitorSelectFields[2]), choice_layout("pr7_32", kMonitorSelectFields[3]),
+    choice_layout("pr7_33", kMonitorSelectFields[4]), choice_layout("pr7_34", kMonitorSelectFields[5]),
+    choice_layout("pr7_35", kForwardChoiceFields[0]), choice_layout("pr7_36", kForwardChoiceFields[1]),
+    choice_layout("pr7_37", kForwardChoiceFields[2]),
+};
 
 }  // namespace servotrace::rtex

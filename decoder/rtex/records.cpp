@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "decoder/pipeline/rules.hpp"
+#include "decoder/rtex/derived.hpp"
 #include "decoder/rtex/engine.hpp"
 
 namespace servotrace::rtex {
@@ -223,6 +224,12 @@ void Engine::take_command_record(const Context& context, const RecordHeader& hea
   if (timed && ring_.last_command_follows) {
     const DurationNs interval = elapsed_ns(ring_.last_command.time_ns, context.frame.time_ns);
     ring_.cycle_times.add(interval);
+    if (context.dissection != nullptr) {
+      context.dissection->derived.push_back({.field = &kCycleTimeField,
+                                             .protocol = "rtex",
+                                             .value = interval,
+                                             .node = NodeRef{.bus = ring_.bus, .protocol = Protocol::kRtex}});
+    }
     if (ring_.cycle_ns && interval >= 0) ring_.cycle_deviations.add(std::abs(interval - ring_.cycle_ns.value));
     if (!ring_.cycle_ns) {
       if (ring_.intervals == 0) ring_.first_interval_time = ring_.last_command.time_ns;

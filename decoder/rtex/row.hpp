@@ -71,6 +71,16 @@ constexpr Field signal(std::string_view key, std::string_view label, Unit unit, 
           .explanation = explanation};
 }
 
+inline constexpr Ratio kTenth{1, 10};
+
+// A torque: the drives send it in 0.1 % of the rated torque.
+constexpr Field torque_signal(std::string_view key, std::string_view label, std::string_view section,
+                              std::string_view explanation = {}) {
+  Field field = signal(key, label, Unit::kPercent, section, explanation);
+  field.scale = kTenth;
+  return field;
+}
+
 // A signed 32-bit number that is no time series.
 constexpr Field setting(std::string_view key, std::string_view label, std::string_view section,
                         std::string_view explanation = {}, Unit unit = Unit::kNone) {

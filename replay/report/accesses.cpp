@@ -101,7 +101,7 @@ void AccessLog::add_rtex(const RawFrame& frame, const Dissection& dissection) {
   for (const Segment& segment : dissection.segments) {
     if (segment.direction != Direction::kResponse || segment.node.mac_id == kNoMacId) continue;
     const Layout* layout = segment.layout;
-    if (layout == &rtex::kResponse) {
+    if (rtex::is_response_header(*layout)) {
       echo = nullptr;
       if (read(slot(rtex::kResponse, "non_cyclic_command_echo"), dissection.bytes(segment)) == 0) close(segment, {});
       continue;
@@ -123,7 +123,8 @@ void AccessLog::add_rtex(const RawFrame& frame, const Dissection& dissection) {
                   .frame = frame.number,
                   .node = segment.node,
                   .refused = err != nullptr && read(slot_of(*err), asked) != 0};
-    if (layout == &rtex::kParameterValue && echo->layout == &rtex::kParameterEcho) {
+    const bool is_value = type_code == rtex::kParameterRead || type_code == rtex::kParameterWrite;
+    if (is_value && echo->layout == &rtex::kParameterEcho) {
       const std::int64_t index = read(slot(rtex::kParameterEcho, "parameter_echo"), asked);
       const ValueName* name = find_value(rtex::kParameterNames, index);
       access.what = name != nullptr ? std::string(name->name) : fmt::format("Pr{}.{:02}", index >> 8, index & 0xFF);

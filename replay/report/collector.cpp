@@ -8,6 +8,7 @@
 #include "decoder/core/slot.hpp"
 #include "decoder/devicenet/derived.hpp"
 #include "decoder/render/value.hpp"
+#include "decoder/rtex/layouts.hpp"
 #include "replay/signals.hpp"
 
 namespace servotrace::report {
@@ -89,17 +90,22 @@ const Collector::Place& Collector::place_of(Node& node, const RawFrame& frame, c
   }
   Place& place = node.places.emplace_back();
   place.layout = &layout;
-  for (const Field& field : layout.fields) {
+  // A response header is one message, before Pr7.23 is known and after.
+  const bool has_forms = rtex::is_response_header(layout);
+  const Layout& shared = has_forms ? rtex::kResponse : layout;
+  for (std::size_t i = 0; i < layout.fields.size(); ++i) {
+    const Field& field = layout.fields[i];
     if (field.role == Role::kPlain || !is_series(field)) continue;
     Kept kept{.field = &field, .slot = slot_of(field), .index = 0, .is_state = field.role == Role::kState};
     auto& known = kept.is_state ? node.tracks : node.signals;
-    const auto [entry, is_new] = known.try_emplace(&field, kept.is_state ? tracks_.size() : signals_.size());
+    const Field& first = shared.fields[i];
+    const auto [entry, is_new] = known.try_emplace(&first, kept.is_state ? tracks_.size() : signals_.size());
     kept.index = entry->second;
     if (is_new && kept.is_state) {
       const std::int64_t value = read(kept.slot, bytes);
       tracks_.push_back({.node = node.node,
-                         .layout = &layout,
-                         .field = &field,
+                         .layout = &shared,
+                         .field = &first,
                          .first_ns = frame.time_ns,
                          .first_value = value,
                          .value = value});

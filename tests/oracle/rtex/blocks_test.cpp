@@ -2,6 +2,7 @@
 // SX-DSV02203 chapters 4 and 5: every bit of the command and response blocks, typed by hand.
 #include <gtest/gtest.h>
 
+#include "decoder/render/value.hpp"
 #include "tests/oracle/rtex/fields.hpp"
 
 namespace servotrace::rtex::oracle {
@@ -101,7 +102,31 @@ TEST(Response, Section4_3_1DefaultData) {
   EXPECT_EQ(block["response.actual_position"], -1000);
   EXPECT_EQ(block["response.actual_speed"], 3000);
   EXPECT_EQ(block["response.torque"], 500);
-  EXPECT_EQ(block.field("response.torque")->unit, Unit::kTenthPercent);
+  EXPECT_EQ(value_text(*block.field("response.torque"), *block["response.torque"]), "50.0 %");
+}
+
+// 4-3-3-2, 4-3-4: Pr7.23 bit 8 chooses what status bit 1 is, bit 3 where POT and NOT are.
+TEST(Response, Sections4_3_3_2And4_3_4NamedByPr7_23) {
+  const struct {
+    BlockFormat format;
+    std::string_view bit_1, low, high;
+  } rows[] = {
+      {{}, "In_Progress / AC_OFF", "NOT / POT", "POT / NOT"},
+      {{.status_known = true}, "In_Progress", "NOT", "POT"},
+      {{.status_known = true, .inhibit_swapped = true}, "In_Progress", "POT", "NOT"},
+      {{.status_known = true, .ac_off = true}, "AC_OFF", "NOT", "POT"},
+      {{.status_known = true, .inhibit_swapped = true, .ac_off = true}, "AC_OFF", "POT", "NOT"},
+  };
+  for (const auto& row : rows) {
+    const auto block = Block::response("A3 20 C3 01 00 00 00 00 00 00 00 00 00 00 00 00", row.format);
+    EXPECT_EQ(block.field("response.in_progress")->label, row.bit_1);
+    EXPECT_EQ(block.field("response.not_pot")->label, row.low);
+    EXPECT_EQ(block.field("response.pot_not")->label, row.high);
+    EXPECT_EQ(block["response.in_progress"], 1);
+    EXPECT_EQ(block["response.not_pot"], 1);
+    EXPECT_EQ(block["response.pot_not"], 0);
+    EXPECT_EQ(block["response.servo_active"], 1);
+  }
 }
 
 TEST(Response, Section4_3_1DataChosenByPr7_29ToPr7_31) {

@@ -2,6 +2,7 @@
 // SX-DSV02203 6-9: every monitor of the list with its unit and sign, and every bit of the signal maps, typed by hand.
 #include <gtest/gtest.h>
 
+#include "decoder/render/value.hpp"
 #include "tests/oracle/rtex/fields.hpp"
 
 namespace servotrace::rtex::oracle {
@@ -24,7 +25,7 @@ const Row kRows[] = {
     {"02 00", "02 01", "encoder_resolution", Unit::kPulse, false},
     {"04 00", "04 01", "internal_position_filtered", Unit::kCommandUnit, true},
     {"05 00", "05 01", "actual_speed", Unit::kRevolutionsPerMinute, true},
-    {"06 00", "06 01", "torque", Unit::kTenthPercent, true},
+    {"06 00", "06 01", "torque", Unit::kPercent, true},
     {"07 00", "", "actual_position", Unit::kCommandUnit, true},
     {"08 00", "", "internal_position", Unit::kCommandUnit, true},
     {"09 00", "", "latch_position_1", Unit::kCommandUnit, true},
@@ -92,6 +93,23 @@ TEST(Monitor, Section6_9_1Scales) {
   EXPECT_EQ(monitor("11 00", "F4 01 00 00").field("response.regenerative_load")->scale.denominator, 10);
   EXPECT_EQ(monitor("12 00", "F4 01 00 00").field("response.overload")->scale.denominator, 10);
   EXPECT_EQ(monitor("61 00", "02 00 00 00").field("response.power_on_time")->scale.numerator, 30);
+  // As people read them: 30h is 4.8 %, -2 is -0.2 %, 2 half-hours are 60 min.
+  const struct {
+    std::string_view type, data, key, text;
+  } rows[] = {
+      {"06 00", "30 00 00 00", "torque", "4.8 %"},
+      {"06 00", "FE FF FF FF", "torque", "-0.2 %"},
+      {"11 00", "F4 01 00 00", "regenerative_load", "50.0 %"},
+      {"12 00", "01 00 00 00", "overload", "0.1 %"},
+      {"67 00", "E8 03 00 00", "fan_life", "100.0 %"},
+      {"68 00", "05 00 00 00", "capacitor_life", "0.5 %"},
+      {"61 00", "02 00 00 00", "power_on_time", "60 min"},
+  };
+  for (const auto& row : rows) {
+    const auto block = monitor(row.type, row.data);
+    const std::string name = "response." + std::string(row.key);
+    EXPECT_EQ(value_text(*block.field(name), *block.last(name)), row.text) << row.key;
+  }
 }
 
 TEST(Monitor, Section6_9_1SpeedUnitByPr7_25) {

@@ -192,6 +192,48 @@ TEST(Parameter, Sections2_5_2To6_8_6BitFields) {
   }
 }
 
+// 4-3-1, 4-5-1, 6-7: what Pr7.29 (071Dh) to Pr7.34 (0722h) choose, by its Type_Code of 6-9-1.
+TEST(Parameter, Sections4_3_1And4_5_1MonitorSelects) {
+  const struct {
+    std::string_view index, layout, value, name;
+  } rows[] = {
+      {"1D 07", "pr7_29", "01 00 00 00", "Position deviation (PERR)"},
+      {"1D 07", "pr7_29", "00 00 00 00", "Actual position (APOS)"},
+      {"1E 07", "pr7_30", "0C 00 00 00", "Command velocity after filtering (MSPD)"},
+      {"1E 07", "pr7_30", "00 00 00 00", "Actual speed (ASPD)"},
+      {"1F 07", "pr7_31", "12 00 00 00", "Overload ratio"},
+      {"1F 07", "pr7_31", "00 00 00 00", "Torque (TRQ)"},
+      {"20 07", "pr7_32", "21 00 00 00", "Logical input signal"},
+      {"21 07", "pr7_33", "62 00 00 00", "Servo driver temperature"},
+      {"22 07", "pr7_34", "84 00 00 00", "External scale cumulative communication data errors"},
+      {"22 07", "pr7_34", "00 00 00 00", "none"},
+      {"22 07", "pr7_34", "03 00 00 00", ""},  // the list has no 03h
+  };
+  for (const auto& row : rows) {
+    const std::string key = std::string(row.layout) + ".monitor_select";
+    const std::string arguments = " 00 " + std::string(row.index) + " " + std::string(row.value);
+    EXPECT_EQ(Block::response(response("26", "10" + arguments)).name(key), row.name) << row.index;
+    EXPECT_EQ(Block::command(command("26", "11" + arguments)).name(key), row.name) << row.index;
+  }
+}
+
+// 7-7-1: Pr7.35 (0723h) to Pr7.37 (0725h).
+TEST(Parameter, Section7_7_1FeedforwardChoices) {
+  for (const std::string_view index : {"23", "24", "25"}) {
+    const std::string key = index == "23"   ? "pr7_35.feedforward"
+                            : index == "24" ? "pr7_36.feedforward"
+                                            : "pr7_37.feedforward";
+    const auto named = [&](std::string_view value) {
+      return std::string(
+          Block::command(command("26", "11 00 " + std::string(index) + " 07 " + std::string(value) + " 00 00 00"))
+              .name(key));
+    };
+    EXPECT_EQ(named("00"), "disabled");
+    EXPECT_EQ(named("01"), "velocity feedforward");
+    EXPECT_EQ(named("02"), "torque feedforward");
+  }
+}
+
 TEST(Profile, Section6_8) {
   const auto block = Block::command("23 17 80 00 18 FC FF FF 12 F0 F1 09 D0 07 00 00");
   EXPECT_EQ(block["command.target_position"], -1000);

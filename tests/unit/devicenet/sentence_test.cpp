@@ -45,6 +45,15 @@ TEST(Sentences, OfADrivesAttributes) {
             "x1000 steps/min");
 }
 
+// A drive that nothing names: its bytes say nothing but whether they are 0.
+TEST(Sentences, OfPollsWithoutAProfile) {
+  Bench bench;
+  bench.start(5).allocate(5).frame(0x42D, "00 00");
+  EXPECT_EQ(sentence(bench.dissection()), "node 5 Poll command: all bits 0");
+  bench.frame(0x3C5, "00 01");
+  EXPECT_EQ(sentence(bench.dissection()), "node 5 Poll response");
+}
+
 // SocketCAN error classes: 40h bus-off, 08h and 80h protocol violation and bus error.
 TEST(Sentences, OfWhatIsNoDevicenetMessage) {
   Bench bench;

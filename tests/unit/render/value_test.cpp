@@ -43,6 +43,10 @@ TEST(BytesText, ShowsBytesAndText) {
   EXPECT_EQ(bytes_text({.kind = Kind::kBytes}, test::hex("0A FF")), "0A FF");
   EXPECT_EQ(bytes_text({.kind = Kind::kBytes}, {}), "none");
   EXPECT_EQ(bytes_text({.kind = Kind::kText}, test::hex("41 22 5C 00 7F")), "\"A\\\"\\\\\\x00\\x7F\"");
+  // SX-DSV02203 6-4: the string ends in NUL.
+  EXPECT_EQ(bytes_text({.kind = Kind::kText}, test::hex("69 63 00 00")), "\"ic\"");
+  EXPECT_EQ(bytes_text({.kind = Kind::kText}, test::hex("00 00 00 00")), "\"\"");
+  EXPECT_EQ(bytes_text({.kind = Kind::kBytes}, test::hex("69 00")), "69 00");
 }
 
 TEST(ViolationText, SaysWhy) {

@@ -48,5 +48,59 @@ TEST_F(Sentences, OfARefusedCommand) {
   EXPECT_THAT(all, Contains(HasSubstr("Parameter refused: ")));
 }
 
+// A bit of two meanings is one word among the others.
+TEST_F(Sentences, OfABitWhoseMeaningIsNotKnown) {
+  bench_.cycles(5);
+  bench_.at(0).in_progress = true;
+  std::vector<std::string> all;
+  bench_.on_frame = [&all](std::uint64_t, const Dissection& dissection) { all.push_back(sentence(dissection)); };
+  bench_.cycles(1);
+  EXPECT_THAT(all[1], HasSubstr("In_Progress/AC_OFF Servo_Ready, counter"));
+}
+
+// 4-3-1: the value of a monitor select is the Type_Code of a monitor.
+TEST_F(Sentences, OfAMonitorSelectThatIsWritten) {
+  bench_.cycles(5);
+  bench_.non_cyclic(0, 6, 0x011, 0x071D, 1);
+  std::vector<std::string> all;
+  bench_.on_frame = [&all](std::uint64_t, const Dissection& dissection) { all.push_back(sentence(dissection)); };
+  bench_.cycles(1);
+  EXPECT_THAT(all[0],
+              HasSubstr("parameter writing Pr7.29 RTEX monitor select 1 = 1 (Position deviation (PERR)), waiting"));
+}
+
+// The labels of the response's bits Pr7.23 decides on, of the last frame: status bit 1, then bits 0 and 1 of byte 3.
+std::string labels(Bench& bench) {
+  std::string text;
+  bench.on_frame = [&text](std::uint64_t, const Dissection& dissection) {
+    for (const Segment& segment : dissection.segments) {
+      if (!is_response_header(*segment.layout)) continue;
+      text.clear();
+      for (const std::string_view key : {"in_progress", "not_pot", "pot_not"})
+        text += std::string(segment.layout->find(key)->label) + ", ";
+    }
+  };
+  bench.cycles(1);
+  bench.on_frame = nullptr;
+  return text;
+}
+
+// 4-3-3-2, 4-3-4: known from the read on, and not before.
+TEST_F(Sentences, NameTheBitsOfPr7_23WhereItIsKnown) {
+  bench_.cycles(5);
+  EXPECT_EQ(labels(bench_), "In_Progress / AC_OFF, NOT / POT, POT / NOT, ");
+  bench_.at(0).data = 0x0108;
+  bench_.non_cyclic(0, 6, 0x010, 0x0717);
+  bench_.cycles(4);
+  bench_.normal(0);
+  bench_.cycles(4);
+  EXPECT_EQ(labels(bench_), "AC_OFF, POT, NOT, ");
+
+  Settings settings;
+  settings.rtex.axes.push_back({.mac_id = 0, .parameters = {{0x0717, 0}}});
+  Bench configured(1, settings);
+  EXPECT_EQ(labels(configured), "In_Progress, NOT, POT, ");
+}
+
 }  // namespace
 }  // namespace servotrace::rtex::test
