@@ -291,9 +291,9 @@ void register_links(ProtocolRow& protocol) {
   add(links.accepted_in, "Accepted in", "accepted_in", FT_FRAMENUM_ACK,
       "The frame whose response first echoes this command");
   add(links.previous_in, "Previous frame of this node", "previous_in", FT_FRAMENUM_NONE,
-      "The frame before this one of the same node and direction");
+      "The frame before this one of the same node, direction and kind of message");
   add(links.next_in, "Next frame of this node", "next_in", FT_FRAMENUM_NONE,
-      "The frame after this one of the same node and direction");
+      "The frame after this one of the same node, direction and kind of message");
   add(links.first_fragment, "First fragment in", "first_fragment", FT_FRAMENUM_NONE,
       "The frame that holds the first fragment of this message");
   add(links.fragment, "Fragment in", "fragment", FT_FRAMENUM_NONE,

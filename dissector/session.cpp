@@ -145,15 +145,13 @@ std::span<const FrameStore::Answer> answers_of(std::uint32_t number) {
 }
 
 NextOfNode next_of_node(std::uint32_t number) {
-  constexpr std::uint32_t kNear = 256;  // frames looked at
   Session* const self = session().get();
   if (self == nullptr) return {};
-  for (std::uint32_t next = number + 1; next <= number + kNear && next <= self->last_number; ++next) {
-    FrameStore::Found found;
-    if (!self->store.get(next, {}, self->pushed, found)) continue;
-    for (const Link& link : self->pushed.links) {
-      if (link.kind == LinkKind::kPreviousOfNode && link.frame == number) return {next, link.node};
-    }
+  const std::uint32_t next = self->store.next_of(number);
+  FrameStore::Found found;
+  if (next == 0 || !self->store.get(next, {}, self->pushed, found)) return {};
+  for (const Link& link : self->pushed.links) {
+    if (link.kind == LinkKind::kPreviousOfNode && link.frame == number) return {next, link.node};
   }
   return {};
 }

@@ -26,7 +26,7 @@ Visit visit(packet_info* pinfo);
 
 // Frames that answer frame `number`.
 std::span<const FrameStore::Answer> answers_of(std::uint32_t number);
-// The next frame of the same node and direction, which names `number` as the one before it; frame 0: none near.
+// The next frame of the same node and direction, which names `number` as the one before it; frame 0: none.
 struct NextOfNode {
   std::uint32_t frame = 0;
   NodeRef node;

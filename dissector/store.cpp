@@ -62,7 +62,7 @@ std::uint32_t intern(std::unordered_map<std::string, std::uint32_t>& ids, std::v
   return entry->second;
 }
 
-// Does the frame a link names learn of it? The others are found by going back from here.
+// Does the frame a link names learn of all it is named by? Of the others only of the one behind it.
 bool is_answer(LinkKind kind) { return kind != LinkKind::kPreviousOfNode; }
 
 }  // namespace
@@ -159,7 +159,12 @@ void FrameStore::put(std::uint32_t number, const Dissection& dissection, Found f
     put_number(shape_, node_id(link.node));
     put_signed(values_, static_cast<std::int64_t>(number) - static_cast<std::int64_t>(link.frame));
     put_signed(values_, link.after_ns);
-    if (is_answer(link.kind)) add_answer(link, number);
+    if (is_answer(link.kind)) {
+      add_answer(link, number);
+    } else if (link.frame != 0 && link.frame < number) {
+      if (next_.size() <= link.frame) next_.resize(frames_.size());
+      next_[link.frame] = number;
+    }
   }
   put_number(shape_, 0);
   const std::uint32_t shape = intern(shape_ids_, shapes_, as_text(shape_));
@@ -225,7 +230,8 @@ void FrameStore::answers(std::uint32_t number, std::vector<Answer>& out) const {
 }
 
 std::size_t FrameStore::bytes_used() const {
-  std::size_t total = chunk_bytes_ + frames_.capacity() * sizeof(Blob) + answer_rows_.capacity() * sizeof(AnswerRow);
+  std::size_t total = chunk_bytes_ + frames_.capacity() * sizeof(Blob) + next_.capacity() * sizeof(std::uint32_t) +
+                      answer_rows_.capacity() * sizeof(AnswerRow);
   for (const std::string_view shape : shapes_) total += shape.size();
   return total;
 }

@@ -43,6 +43,9 @@ class FrameStore {
   };
   void answers(std::uint32_t number, std::vector<Answer>& out) const;
 
+  // The frame that names `number` as the one before it of the same node; 0: none.
+  std::uint32_t next_of(std::uint32_t number) const { return number < next_.size() ? next_[number] : 0; }
+
   std::size_t bytes_used() const;
   // Rows that all_layouts() and all_derived() do not list were left out: an error of ours, shown and not hidden.
   std::uint64_t unregistered() const { return unregistered_; }
@@ -84,7 +87,8 @@ class FrameStore {
   std::size_t chunk_used_ = 0;
   std::size_t chunk_size_ = 0;
   std::size_t chunk_bytes_ = 0;
-  std::vector<Blob> frames_;  // by frame number
+  std::vector<Blob> frames_;         // by frame number
+  std::vector<std::uint32_t> next_;  // by frame number
   std::vector<AnswerRow> answer_rows_;
   std::unordered_map<std::uint32_t, AnswerEnds> answer_ends_;  // by the frame answered
   Writer shape_;                                               // scratch

@@ -21,6 +21,7 @@ const char* unit_text(wmem_allocator_t* pool, const Field& field, std::int64_t v
   const std::string_view unit = symbol(field.unit);
   if (field.scale == Ratio{}) {
     if (unit.empty()) return "";
+    if (field.unit == Unit::kNanosecond) return pool_text(pool, " ns (" + duration_text(value) + ")");
     return wmem_strdup_printf(pool, " %s", pool_text(pool, unit));
   }
   std::string text = " (" + scaled_text(value, field.scale, decimal_places(field.scale));

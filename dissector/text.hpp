@@ -15,7 +15,7 @@ const char* pool_text(wmem_allocator_t* pool, std::string_view text);
 const char* message_text(wmem_allocator_t* pool, const Finding& finding);
 
 // What stands behind a field's raw value: " (45 r/min)" where the row scales it, " r/min" where it has but a unit, ""
-// where it has none.
+// where it has none; of a time " ns (0.5 ms)".
 const char* unit_text(wmem_allocator_t* pool, const Field& field, std::int64_t value);
 
 // "axis 3 (X)", "ring0", "can1", "capture".

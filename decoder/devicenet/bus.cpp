@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "decoder/devicenet/bus.hpp"
 
+#include <utility>
+
 #include "decoder/devicenet/derived.hpp"
 #include "decoder/profiles/profile.hpp"
 #include "decoder/profiles/profiles.hpp"
@@ -24,6 +26,11 @@ constexpr std::uint32_t kClassRestarted = 0x100;
 constexpr std::uint32_t kClassCounters = 0x200;
 constexpr std::uint32_t kControllerReceiveOverflow = 0x01;
 constexpr std::uint32_t kControllerActive = 0x40;
+
+// Of a frame in Node::last_frames: 16 message IDs of group 1, 8 of group 2, 8 of group 3.
+std::size_t place_of(const Identifier& id) {
+  return id.group == 1 ? id.message_id & 15U : (id.group == 2 ? 16U : 24U) + (id.message_id & 7U);
+}
 
 // The poll identifiers carry change-of-state and cyclic messages of a node that is allocated so.
 std::string_view name_of_message(const Identifier& id, const Node* node) {
@@ -119,6 +126,7 @@ void Bus::gap() {
     node.exchanged = false;
     node.late_allowance = 0;
     node.responded = false;
+    node.last_frames = {};
     node.explicit_connection = Known::kUnknown;
     node.master = kNoMacId;
     PollConnection& poll = node.poll;
@@ -137,7 +145,10 @@ void Bus::gap() {
     poll.state = PollState::kUnknown;
     if (node.session) node.session->on_gap();
   }
-  for (DynamicConnection& connection : dynamic_) forget(connection.channel);
+  for (DynamicConnection& connection : dynamic_) {
+    forget(connection.channel);
+    connection.last_request = connection.last_response = {};
+  }
   for (PendingOpen& open : opens_) open.used = false;
 }
 
@@ -287,13 +298,35 @@ void Bus::show_plain(const Arrival& arrival, const Node& node, const Layout& lay
 
 void Bus::push_data(const Arrival& arrival) {
   const Identifier& id = arrival.id;
-  const MessageKind kind = id.kind();
-  if (DynamicConnection* const open = opened_on(id)) {
-    push_dynamic(arrival, *open);
-    return;
-  }
+  DynamicConnection* const open = opened_on(id);
   // Whose frame it is: the slave's by its place in the predefined set, else the sender's.
-  Node* const entry = id.mac_id == kNoMacId || id.row->role == MacRole::kGroup ? nullptr : &node(id.mac_id);
+  const bool of_none = id.mac_id == kNoMacId || id.row->role == MacRole::kGroup;
+  Node* const entry = open != nullptr ? &node(static_cast<std::int16_t>(open->server))
+                      : of_none       ? nullptr
+                                      : &node(id.mac_id);
+  LastFrame* last = nullptr;
+  if (open != nullptr) {
+    last = open->channel.request_id == id.value ? &open->last_request : &open->last_response;
+  } else if (entry != nullptr && id.kind() != MessageKind::kMacCheck) {
+    last = &entry->last_frames[place_of(id)];
+  }
+  const LastFrame before = last == nullptr ? LastFrame{} : std::exchange(*last, {arrival.number(), arrival.now_ns()});
+  if (open != nullptr) {
+    push_dynamic(arrival, *open);
+  } else {
+    push_predefined(arrival, entry);
+  }
+  if (before.frame != 0 && arrival.context.dissection != nullptr) {
+    arrival.context.dissection->links.push_back({.kind = LinkKind::kPreviousOfNode,
+                                                 .frame = before.frame,
+                                                 .after_ns = elapsed_ns(before.time_ns, arrival.now_ns()),
+                                                 .node = entry->ref});
+  }
+}
+
+void Bus::push_predefined(const Arrival& arrival, Node* entry) {
+  const Identifier& id = arrival.id;
+  const MessageKind kind = id.kind();
   if (arrival.context.dissection != nullptr) show_identifier(arrival, entry);
   if (entry != nullptr && id.source() >= 0 && kind != MessageKind::kMacCheck) transmitted(arrival, *entry);
   Dissection* const dissection = arrival.context.dissection;

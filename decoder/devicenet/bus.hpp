@@ -61,6 +61,7 @@ class Bus {
  private:
   // bus.cpp
   void push_data(const Arrival& arrival);
+  void push_predefined(const Arrival& arrival, Node* entry);
   void push_error(const Context& context, const can::Frame& frame);
   void invalid(const Context& context, const can::Frame& frame, std::int64_t kind);
   void show_identifier(const Arrival& arrival, const Node* node) const;

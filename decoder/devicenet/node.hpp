@@ -102,6 +102,12 @@ struct IoStream {
   std::optional<Learnt> size;  // bytes, as the device told
 };
 
+// The last frame of one CAN identifier.
+struct LastFrame {
+  std::uint64_t frame = 0;  // 0: none
+  TimeNs time_ns = 0;
+};
+
 struct Node {
   NodeRef ref;  // channel kNone
   OwnerId owner{};
@@ -140,6 +146,8 @@ struct Node {
   ExplicitChannel channel;
   Durations explicit_answer;
 
+  std::array<LastFrame, 32> last_frames = {};  // of its I/O and explicit messages, by group and message ID
+
   // Identity attributes read.
   std::optional<Learnt> identity_vendor;
   std::optional<Learnt> identity_product;
@@ -174,6 +182,8 @@ struct DynamicConnection {
   std::uint8_t server = 0;
   std::uint16_t instance = 0;
   ExplicitChannel channel;
+  LastFrame last_request;
+  LastFrame last_response;
 };
 
 // An Open request that waits for its answer.

@@ -206,10 +206,6 @@ void Bus::poll_begins(const Arrival& arrival, Node& node) {
     }
     poll.last_interval_ns = interval;
     derive(dissection, kPollIntervalField, interval, node.ref);
-    if (dissection != nullptr) {
-      dissection->links.push_back(
-          {.kind = LinkKind::kPreviousOfNode, .frame = poll.polled_frame, .after_ns = interval, .node = node.ref});
-    }
   }
   if (poll.state == PollState::kEstablished && poll.has_command && !node.change_of_state()) {
     checked(rule("DN205"));

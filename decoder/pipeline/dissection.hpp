@@ -41,7 +41,7 @@ struct Derived {
 enum class LinkKind : std::uint8_t {
   kRequestIn,       // this frame answers the one at `frame`
   kAcceptedIn,      // non-cyclic command accepted (echoed)
-  kPreviousOfNode,  // the previous frame of the same node and direction
+  kPreviousOfNode,  // the previous frame of the same node, direction and kind of message
   kFirstFragment,
   kReassembledFrom,  // an earlier fragment of the message completed here
 };

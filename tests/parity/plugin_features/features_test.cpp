@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
+#include <set>
 
 #include "tests/support/paths.hpp"
 #include "tests/support/recording.hpp"
@@ -104,6 +106,66 @@ TEST_F(Plugin, ProcessValuesOfOneAxis) {
   }
   EXPECT_THAT(run({"-q", "-z", "io,stat,0,MAX(rtex.axis1.actual_position)rtex.axis1.actual_position"}),
               ContainsRegex("MAX"));
+}
+
+// What no single frame holds: how far each axis is behind its command, how long the drive took to echo, how long a
+// cycle was; against the bytes and times of the records themselves, and as -z io,stat adds them up.
+TEST_F(Plugin, DeviationEchoLatencyAndCycleTimeOfOneAxis) {
+  const auto position = [](const std::vector<std::uint8_t>& bytes, std::size_t axis) {
+    const std::size_t at = 12 + 24 + 16 * axis + 4;
+    std::uint32_t raw = 0;
+    for (std::size_t i = 0; i < 4; ++i) raw |= std::uint32_t{bytes[at + i]} << (8 * i);
+    return static_cast<std::int32_t>(raw);
+  };
+  const auto rows = rows_of(
+      run({"-T", "fields", "-e", "rtex.axis1.deviation", "-e", "rtex.axis2.deviation", "-e", "rtex.axis1.echo_time_ns",
+           "-e", "rtex.axis2.echo_time_ns", "-e", "rtex.accepted_command", "-e", "rtex.cycle_time_ns"}));
+  ASSERT_EQ(rows.size(), clean_.frames.size());
+  std::size_t last_command = rows.size();
+  std::size_t deviations = 0;
+  std::size_t latencies = 0;
+  std::int64_t most = INT64_MIN;
+  std::int64_t longest = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    ASSERT_EQ(rows[i].size(), 6U);
+    const auto& frame = clean_.frames[i];
+    const bool response = (frame.bytes[12 + 6] & 1U) != 0;
+    if (!response) {
+      EXPECT_EQ(rows[i][5],
+                last_command == rows.size() ? "" : std::to_string(frame.time_ns - clean_.frames[last_command].time_ns))
+          << "frame " << i + 1;
+      last_command = i;
+      continue;
+    }
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      if (rows[i][axis].empty()) continue;
+      const std::int64_t expected =
+          std::int64_t{position(clean_.frames[last_command].bytes, axis)} - position(frame.bytes, axis);
+      EXPECT_EQ(rows[i][axis], std::to_string(expected)) << "frame " << i + 1;
+      if (axis == 0) most = std::max(most, expected);
+      ++deviations;
+    }
+    std::multiset<std::string> shown;
+    std::multiset<std::string> expected;
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      if (!rows[i][2 + axis].empty()) shown.insert(rows[i][2 + axis]);
+    }
+    if (!rows[i][2].empty()) longest = std::max<std::int64_t>(longest, std::stoll(rows[i][2]));
+    if (!rows[i][4].empty()) {
+      for (const std::string& command : parts_of(rows[i][4], ','))
+        expected.insert(std::to_string(frame.time_ns - clean_.frames[std::stoul(command) - 1].time_ns));
+    }
+    EXPECT_EQ(shown, expected) << "frame " << i + 1;
+    latencies += shown.size();
+  }
+  EXPECT_GT(deviations, rows.size() / 2);
+  EXPECT_GT(latencies, 0U);
+  EXPECT_GT(longest, 0);
+  const std::string sums = run({"-q", "-z",
+                                "io,stat,0,MAX(rtex.axis1.deviation)rtex.axis1.deviation,"
+                                "MAX(rtex.axis1.echo_time_ns)rtex.axis1.echo_time_ns"});
+  EXPECT_THAT(sums,
+              ContainsRegex("<>[^|]*\\| +" + std::to_string(most) + " +\\| +" + std::to_string(longest) + " +\\|"));
 }
 
 // The same of a DeviceNet node.

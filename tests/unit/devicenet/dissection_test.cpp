@@ -407,6 +407,44 @@ TEST(Evidence, CountsFromTheFrameThatCompletesIt) {
   EXPECT_EQ(bench.findings(), std::vector<std::string>{"DN211@4"});
 }
 
+// Each kind of message of a node is a series of its own: what stands between, of any node, does not matter.
+TEST(Links, NameTheFrameBeforeOfTheSameKind) {
+  Bench bench;
+  const auto previous = [&bench](std::uint32_t identifier, std::string_view bytes) {
+    bench.frame(identifier, bytes);
+    std::vector<std::pair<std::uint64_t, DurationNs>> links;
+    for (const Link& link : bench.dissection().links) {
+      if (link.kind == LinkKind::kPreviousOfNode) links.emplace_back(link.frame, link.after_ns);
+    }
+    EXPECT_LE(links.size(), 1U);
+    return links.empty() ? std::pair<std::uint64_t, DurationNs>{} : links[0];
+  };
+  bench.start(5).start(6).allocate(5);
+  const struct {
+    std::uint32_t identifier;
+    std::string_view bytes;
+  } kinds[] = {
+      {0x42C, "01 0E 01 01 01"},  // explicit request: the first of its port, allocation has one of its own
+      {0x42D, "01"},              // poll command
+      {0x3C5, "02"},              // poll response
+      {0x345, "03"},              // change of state
+      {0x42A, "04"},              // its acknowledgement
+      {0x385, "05"},              // bit-strobe response
+      {0x305, "06"},              // multicast poll response
+  };
+  const std::uint64_t first = bench.number() + 1;
+  for (const auto& kind : kinds) EXPECT_EQ(previous(kind.identifier, kind.bytes).first, 0U) << kind.identifier;
+  for (int n = 0; n < 300; ++n) bench.frame(0x435, "01");  // polls of node 6
+  const std::uint64_t last = bench.number();
+  for (std::size_t i = 0; i < std::size(kinds); ++i)
+    EXPECT_EQ(previous(kinds[i].identifier, kinds[i].bytes).first, first + i) << kinds[i].identifier;
+  for (std::size_t i = 0; i < std::size(kinds); ++i)
+    EXPECT_EQ(previous(kinds[i].identifier, kinds[i].bytes),
+              std::pair(last + 1 + i, DurationNs{std::size(kinds)} * kMillisecondNs));
+  // A Duplicate MAC ID check is no step of a series.
+  EXPECT_EQ(previous(0x42F, "00 2C 00 01 00 00 00").first, 0U);
+}
+
 TEST(Ucmm, ADynamicConnectionIsFollowed) {
   Bench bench;
   bench.frame(0x7C0, "").frame(0x782, "05 4B 00 33", 2000);  // client 2 opens at server 5, group 3, its message ID 3
@@ -417,6 +455,7 @@ TEST(Ucmm, ADynamicConnectionIsFollowed) {
   EXPECT_EQ(bench.dissection().links[0].frame, 2U);
   bench.frame(0x6C2, "05 0E 01 01 01");
   EXPECT_EQ(field_value(bench.dissection(), "explicit", "attribute"), 1);
+  EXPECT_TRUE(bench.dissection().links.empty());  // the first of its kind
   EXPECT_EQ(bench.dissection().segments[0].node.mac_id, 5);
   EXPECT_EQ(derived_value(bench.dissection(), "source"), 2);
   EXPECT_EQ(derived_value(bench.dissection(), "destination"), 5);
@@ -425,7 +464,10 @@ TEST(Ucmm, ADynamicConnectionIsFollowed) {
   EXPECT_EQ(derived_value(bench.dissection(), "destination"), 2);
   EXPECT_EQ(bench.dissection().links[0].frame, 4U);
   // A product name in fragments: acknowledged from the other side, whose header again holds the other MAC ID.
-  bench.frame(0x6C2, "45 0E 01 01 07").frame(0x705, "C2 00 8E 0A 4A 55 53 50").frame(0x6C2, "C5 C0 00");
+  bench.frame(0x6C2, "45 0E 01 01 07");
+  EXPECT_EQ(bench.dissection().links[0].kind, LinkKind::kPreviousOfNode);
+  EXPECT_EQ(bench.dissection().links[0].frame, 4U);
+  bench.frame(0x705, "C2 00 8E 0A 4A 55 53 50").frame(0x6C2, "C5 C0 00");
   bench.frame(0x705, "C2 81 2D 4E 53 33 31 30");
   EXPECT_EQ(field_value(bench.dissection(), "identity", "length"), 10);
   bench.frame(0x6C2, "C5 C1 00");

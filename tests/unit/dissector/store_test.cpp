@@ -120,6 +120,17 @@ TEST(FrameStore, TellsARequestOfItsAnswers) {
   EXPECT_TRUE(answers.empty());
 }
 
+TEST(FrameStore, TellsAFrameOfTheNextOne) {
+  FrameStore store;
+  const std::vector<std::uint8_t> bytes = frame_bytes();
+  store.put(3, dissection_of(bytes, 0), {});
+  store.put(100'000, dissection_of(bytes, 3), {});
+  EXPECT_EQ(store.next_of(3), 100'000U);
+  EXPECT_EQ(store.next_of(0), 0U);
+  EXPECT_EQ(store.next_of(100'000), 0U);
+  EXPECT_EQ(store.next_of(100'001), 0U);
+}
+
 // Cyclic traffic: a frame that looks like an earlier one costs a few bytes.
 TEST(FrameStore, SameShapesAreKeptOnce) {
   FrameStore store;
