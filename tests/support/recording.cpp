@@ -77,9 +77,11 @@ Recording mutated(const Recording& recording, std::uint32_t seed, std::uint32_t 
   return result;
 }
 
-Recording first_frames(const Recording& recording, std::size_t count) {
-  Recording result = recording;
-  if (result.frames.size() > count) result.frames.resize(count);
+Recording some_frames(const Recording& recording, std::size_t first, std::size_t count) {
+  Recording result{recording.name, recording.interfaces, {}};
+  const std::size_t size = recording.frames.size();
+  const std::size_t begin = first < size ? first : 0;
+  for (std::size_t i = begin; i < size && i < begin + count; ++i) result.frames.push_back(recording.frames[i]);
   return result;
 }
 

@@ -27,8 +27,8 @@ std::vector<Recording> simulated_recordings();
 // The recording with one byte in `one_in` changed (not in the tags of exported PDUs); the same seed changes the same
 // bytes.
 Recording mutated(const Recording& recording, std::uint32_t seed, std::uint32_t one_in);
-// The recording cut to its first frames.
-Recording first_frames(const Recording& recording, std::size_t count);
+// The recording cut to `count` frames, from the one at `first` on or from its begin where it is shorter.
+Recording some_frames(const Recording& recording, std::size_t first, std::size_t count);
 
 void write_capture(const std::filesystem::path& path, const std::vector<Recording>& recordings);
 
