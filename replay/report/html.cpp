@@ -34,8 +34,10 @@ std::array<std::uint64_t, 3> by_severity(const Model& model) {
 
 std::string overview(std::span<const Built> captures) {
   std::string out =
-      "<h2 id=\"overview\">Overview</h2>\n<div class=\"wide\"><table><thead><tr><th>capture</th><th>verdict</th><th "
-      "class=\"number\">errors</th><th class=\"number\">warnings</th><th class=\"number\">notes</th></tr></thead>"
+      "<h2 id=\"overview\">Overview</h2>\n<div class=\"wide\"><table><thead><tr><th scope=\"col\">capture</th><th "
+      "scope=\"col\">"
+      "verdict</th><th scope=\"col\" class=\"number\">errors</th><th scope=\"col\" class=\"number\">warnings</th>"
+      "<th scope=\"col\" class=\"number\">notes</th></tr></thead>"
       "<tbody>\n";
   for (std::size_t i = 0; i < captures.size(); ++i) {
     const Model& model = captures[i].model;
@@ -48,6 +50,15 @@ std::string overview(std::span<const Built> captures) {
   return out + "</tbody></table></div>\n";
 }
 
+// Headings one level down: those of a capture below the name of its file.
+std::string deepened(std::string html) {
+  for (std::size_t at = html.find('h'); at != std::string::npos && at + 1 < html.size(); at = html.find('h', at + 1)) {
+    const bool is_tag = at > 0 && (html[at - 1] == '<' || (at > 1 && html[at - 1] == '/' && html[at - 2] == '<'));
+    if (is_tag && html[at + 1] >= '2' && html[at + 1] <= '5') ++html[at + 1];
+  }
+  return html;
+}
+
 }  // namespace
 
 void Page::heading(std::string_view id, std::string_view text) {
@@ -55,10 +66,22 @@ void Page::heading(std::string_view id, std::string_view text) {
 }
 
 void Page::begin_table(std::initializer_list<Column> columns) {
-  add("<div class=\"wide\"><table><thead><tr>");
+  // A table that may be wider than the window is moved by the keyboard, too.
+  constexpr std::size_t kMayBeWide = 4;  // columns
+  if (columns.size() >= kMayBeWide) {
+    std::string names;
+    for (const Column& column : columns) names += fmt::format("{}{}", names.empty() ? "" : ", ", column.name);
+    add("<div class=\"wide\" tabindex=\"0\" role=\"group\" aria-label=\"Table: {}\"><table><thead><tr>", e(names));
+  } else {
+    add("<div class=\"wide\"><table><thead><tr>");
+  }
   for (const Column& column : columns) {
-    add("<{0}{1}>{2}</{0}>", column.name.empty() ? "td" : "th", column.number ? " class=\"number\"" : "",
-        e(column.name));
+    const std::string_view number = column.number ? " class=\"number\"" : "";
+    if (column.name.empty()) {
+      add("<td{}></td>", number);
+    } else {
+      add("<th scope=\"col\"{}>{}</th>", number, e(column.name));
+    }
   }
   add("</tr></thead><tbody>\n");
 }
@@ -73,7 +96,7 @@ std::string Page::severity(Severity value) {
 }
 
 std::string Page::rule_link(RuleId id) const {
-  return fmt::format("<a href=\"#{}{}\">{}</a>", prefix_, rule_row(id).id, rule_row(id).id);
+  return fmt::format("<a class=\"rule\" href=\"#{}{}\">{}</a>", prefix_, rule_row(id).id, rule_row(id).id);
 }
 
 std::string Page::node_name(const NodeRef& node) const {
@@ -175,8 +198,9 @@ std::string html(std::span<const Built> captures, const Settings& settings) {
   }
   for (std::size_t i = 0; !one && i < captures.size(); ++i) {
     Page page(captures[i], settings, fmt::format("c{}-", i + 1));
-    out += fmt::format("<section id=\"c{}\">\n<h1>{}</h1>\n", i + 1, escape_html(file_name(captures[i].model)));
-    out += page.head() + page.body() + "</section>\n";
+    out += fmt::format("<section id=\"c{}\">\n<h2 class=\"capture\">{}</h2>\n", i + 1,
+                       escape_html(file_name(captures[i].model)));
+    out += page.head() + deepened(page.body()) + "</section>\n";
   }
   out +=
       "</main>\n<footer>Made by servotrace. Frames are numbered as Wireshark numbers them; times count from the first "

@@ -36,7 +36,8 @@ void Page::network() {
     if (!bus.facts.empty()) {
       begin_table({{"setting"}, {"value"}, {"known from"}});
       for (const Fact& fact : bus.facts)
-        add("<tr><th>{}</th><td>{}</td><td>{}</td></tr>\n", e(fact.key), e(fact.value), e(basis_text(fact.basis)));
+        add("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td></tr>\n", e(fact.key), e(fact.value),
+            e(basis_text(fact.basis)));
       end_table();
     }
     if (bus.protocol == Protocol::kRtex) ring(bus);

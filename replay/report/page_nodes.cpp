@@ -26,11 +26,14 @@ void Page::nodes() {
 }
 
 void Page::node(const BusSummary& bus, const NodeSummary& node) {
-  add("<h3>{}</h3>\n<div class=\"wide\"><table><thead><tr><th>identity and settings</th><th>value</th><th>known "
-      "from</th></tr></thead><tbody>\n",
+  add("<h3>{}</h3>\n<div class=\"wide\"><table><thead><tr><th scope=\"col\">identity and settings</th><th "
+      "scope=\"col\">value</th><th scope=\"col\">known from</th></tr></thead><tbody>\n",
       e(capitalised(node_name(node.node))));
   const auto row = [&](std::string_view key, std::string_view value, std::string_view how) {
-    if (!value.empty()) add("<tr><th>{}</th><td>{}</td><td>{}</td></tr>\n", e(key), e(value), e(how));
+    constexpr std::size_t kShort = 24;  // "shown by frame 1234567" stays on its line
+    if (!value.empty())
+      add("<tr><th scope=\"row\">{}</th><td>{}</td><td{}>{}</td></tr>\n", e(key), e(value),
+          how.size() <= kShort ? " class=\"section\"" : "", e(how));
   };
   row("profile", node.profile, node.recognised);
   if (node.node.protocol == Protocol::kRtex) row("place in the ring", std::to_string(node.node.place + 1), "");

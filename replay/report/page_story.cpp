@@ -131,7 +131,11 @@ void Page::story() {
   const std::size_t begin = at > 24 ? at - 24 : 0;
   const std::size_t end = std::min(telling.size(), begin + 36);
   add("<h3>What happened, in order</h3>\n");
-  table({telling.begin() + static_cast<std::ptrdiff_t>(begin), telling.begin() + static_cast<std::ptrdiff_t>(end)});
+  if (telling.empty()) {
+    add("<p>No servo, alarm, limit or progress state changed, and nothing was found.</p>\n");
+  } else {
+    table({telling.begin() + static_cast<std::ptrdiff_t>(begin), telling.begin() + static_cast<std::ptrdiff_t>(end)});
+  }
   constexpr std::size_t kMost = 2000;
   if (lines.size() == end - begin) return;
   add("<details class=\"long\"><summary>Every change of state and every finding ({})</summary>\n", lines.size() + more);

@@ -81,11 +81,11 @@ void Page::in_full(const Finding& finding) {
   for (const std::uint64_t frame : frames) {
     const ShownFrame& shown = model_.evidence.at(frame_key(frame, finding.node));
     add("<div><p class=\"evidence\"><b>frame {}</b> {}</p>\n", frame, e(shown.bytes));
-    begin_table({{"field"}, {"value"}});
+    if (!shown.fields.empty()) begin_table({{"field"}, {"value"}});
     for (const ShownField& field : shown.fields)
       add("<tr><td>{}</td><td{}>{}</td></tr>\n", e(field.label), field.marked ? " class=\"differs\"" : "",
           e(field.value));
-    end_table();
+    if (!shown.fields.empty()) end_table();
     add("</div>\n");
   }
   add("</div></details>\n");

@@ -60,8 +60,8 @@ std::string escape_html(std::string_view text) {
 // The attributes are for pages whose style sheet was stripped: any rule of a class overrides them.
 Svg::Svg(double width, double height, std::string_view title)
     : head_(fmt::format(
-          "<svg viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" aria-label=\"{}\" fill=\"#333\"><title>{}</title>\n", width,
-          height, escape_html(title), escape_html(title))) {}
+          "<svg viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" aria-label=\"{}\"><title>{}</title><g fill=\"#333\">\n",
+          width, height, escape_html(title), escape_html(title))) {}
 
 void Svg::line(double x1, double y1, double x2, double y2, std::string_view css_class) {
   body_ += fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"#999\" class=\"{}\"/>\n",
@@ -112,7 +112,7 @@ void Svg::mark(Mark shape, double x, double y, std::string_view css_class, std::
   }
 }
 
-std::string Svg::str() const { return head_ + body_ + "</svg>\n"; }
+std::string Svg::str() const { return head_ + body_ + "</g></svg>\n"; }
 
 std::vector<double> ticks(double low, double high, int most) {
   std::vector<double> result;
