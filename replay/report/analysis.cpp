@@ -48,26 +48,28 @@ class Judge {
     const Finding& finding = model_.findings[first.finding];
     verdict_.first = first.finding;
     verdict_.headline = fmt::format("{} failed first, {} after the start (frame {}): {}.", capitalised(name(finding)),
-                                    at_time(model_, finding.time_ns), finding.frame, fault_text(model_, first));
+                                    at_time(model_, first.time_ns), first.frame, fault_text(model_, first));
     if (first.code_frame != 0)
       say(fmt::format("The code was read out of the drive afterwards, in frame {}.", first.code_frame));
-    alarm_state(finding);
+    if (first.frame != finding.frame && !is_alarm_without_code(finding))
+      say(fmt::format("It was reported {} later, when the drive was asked for the code, in frame {}.",
+                      duration_text(elapsed_ns(first.time_ns, finding.time_ns)), finding.frame));
+    alarm_state(first);
     const auto cause =
         std::find_if(first.causes.begin(), first.causes.end(), [](const Candidate& entry) { return entry.supported; });
     if (cause != first.causes.end()) {
       verdict_.cause = *cause;
       say(fmt::format("The likely cause: {} ({}).", cause->text, cause->section));
-      if (const std::string text = evidence(*cause, finding); !text.empty()) say(text);
+      if (const std::string text = evidence(*cause, first); !text.empty()) say(text);
     } else {
       say("No violation the symptom table knows preceded it: the capture does not show the cause.");
-      for (const Candidate& entry : first.causes) possible(entry, finding);
+      for (const Candidate& entry : first.causes) possible(entry, first);
     }
     for (const std::size_t follower : first.followers) {
       const Fault& fault = model_.faults[follower];
       const Finding& later = model_.findings[fault.finding];
       say(fmt::format("It led to: {}, {} later (frame {}): {}.", name(later),
-                      duration_text(elapsed_ns(finding.time_ns, later.time_ns)), later.frame,
-                      fault_text(model_, fault)));
+                      duration_text(elapsed_ns(first.time_ns, fault.time_ns)), fault.frame, fault_text(model_, fault)));
     }
     if (const std::size_t others = model_.faults.size() - 1 - first.followers.size() + model_.more_faults; others != 0)
       say(fmt::format("{} described below.",
@@ -75,11 +77,11 @@ class Judge {
   }
 
   // A fault that shows in a message only later (a code that had to be asked for) may have shown as a state before.
-  void alarm_state(const Finding& fault) {
+  void alarm_state(const Fault& fault) {
     const Event* risen = nullptr;
+    const NodeRef& node = model_.findings[fault.finding].node;
     for (const StateTrack& track : model_.tracks) {
-      if (!(track.node.bus == fault.node.bus) || track.node.mac_id != fault.node.mac_id || track.field->key != "alarm")
-        continue;
+      if (!(track.node.bus == node.bus) || track.node.mac_id != node.mac_id || track.field->key != "alarm") continue;
       for (const Event& event : track.changes) {
         if (event.frame <= fault.frame) risen = event.after != 0 ? &event : nullptr;
       }
@@ -90,7 +92,7 @@ class Judge {
   }
 
   // The sentence that proves a cause; empty where the fault proves it itself.
-  std::string evidence(const Candidate& cause, const Finding& fault) const {
+  std::string evidence(const Candidate& cause, const Fault& fault) const {
     if (cause.access) {
       const Access& access = model_.accesses[*cause.access];
       return fmt::format("Evidence: {} was written in frame {}, {} before the fault: {} became {}.", access.what,
@@ -99,13 +101,13 @@ class Judge {
     }
     if (!cause.finding) return {};
     const Finding& shown = model_.findings[*cause.finding];
-    if (shown.frame == fault.frame && shown.rule == fault.rule) return {};
+    if (*cause.finding == fault.finding) return {};
     return fmt::format("Evidence: {} at {}, frame {}, {} before the fault: {}{}.", rule_row(shown.rule).id, name(shown),
                        shown.frame, duration_text(elapsed_ns(shown.time_ns, fault.time_ns)), message(shown),
                        shown.count > 1 ? fmt::format(" ({} times up to frame {})", shown.count, shown.last_frame) : "");
   }
 
-  void possible(const Candidate& cause, const Finding& fault) {
+  void possible(const Candidate& cause, const Fault& fault) {
     const std::string text = evidence(cause, fault);
     say(fmt::format("Possible, but not shown by the capture: {} ({}).{}{}", cause.text, cause.section,
                     text.empty() ? "" : " ", text));

@@ -6,6 +6,7 @@
 
 #include "decoder/pipeline/settings.hpp"
 #include "replay/bus_names.hpp"
+#include "replay/report/frame_times.hpp"
 #include "replay/report/model.hpp"
 
 namespace servotrace::report {
@@ -21,7 +22,7 @@ bool is_alarm_without_code(const Finding& finding);
 // Ranks the causes of every fault anew, with the codes read after it.
 void rank_all_causes(Model& model);
 // Fills faults (with windows and causes) from the findings; model.findings must be sorted by frame.
-void find_faults(Model& model);
+void find_faults(Model& model, const FrameTimes& times);
 // What the manuals' tables say of the code of a fault. `likely_sub`: of an RTEX alarm whose sub number was not read,
 // the one the evidence points at; below 0: none.
 std::vector<Advice> advice_for(const Finding& finding, std::int64_t code, std::int64_t likely_sub);

@@ -24,6 +24,20 @@ class Gather : public replay::FrameVisitor {
   Collector& collector_;
 };
 
+// The first look: findings, and when every frame was recorded.
+class Clock : public replay::FrameVisitor {
+ public:
+  bool wants_dissection(std::uint64_t) override { return false; }
+  bool on_frame(const RawFrame& frame, const Dissection*, const Pipeline&, const replay::Source&) override {
+    times_.add(frame.number, frame.time_ns);
+    return true;
+  }
+  const FrameTimes& times() const { return times_; }
+
+ private:
+  FrameTimes times_;
+};
+
 // The frames of all findings in words, those of the first findings of a rule in full.
 std::vector<WantedFrame> wanted_frames(const Model& model) {
   std::vector<WantedFrame> wanted;
@@ -43,7 +57,8 @@ std::vector<WantedFrame> wanted_frames(const Model& model) {
 }  // namespace
 
 Result<Built> build_model(const replay::CaptureInput& input, const Settings& settings, replay::RuleFilter filter) {
-  replay::CaptureResult result = replay::run_input(input, settings);
+  Clock clock;
+  replay::CaptureResult result = replay::run_input(input, settings, {.visitor = &clock});
   if (result.error && result.format.empty()) return *result.error;
   Built built;
   Model& model = built.model;
@@ -66,17 +81,18 @@ Result<Built> build_model(const replay::CaptureInput& input, const Settings& set
     model.rules.push_back({static_cast<RuleId>(i), result.checked[i], result.total[i]});
   }
   model.summary = std::move(result.summary);
-  find_faults(model);
+  find_faults(model, clock.times());
 
   std::vector<Watch> watches;
   for (const Fault& fault : model.faults) {
     const Finding& finding = model.findings[fault.finding];
-    watches.push_back({finding.frame, finding.time_ns, finding.node, fault.window_begin_ns, fault.window_end_ns,
+    watches.push_back({fault.frame, fault.time_ns, finding.node, fault.window_begin_ns, fault.window_end_ns,
                        is_alarm_without_code(finding)});
   }
   Collector collector(settings, watches, wanted_frames(model));
   Gather gather(collector);
-  static_cast<void>(replay::run_input(input, settings, {.visitor = &gather}));
+  const replay::CaptureResult again = replay::run_input(input, settings, {.visitor = &gather});
+  if (again.error && model.capture.broken.empty()) model.capture.broken = again.error->text();
   collector.finish(model);
   rank_all_causes(model);
   judge(model, settings, built.buses);

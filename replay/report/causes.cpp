@@ -30,18 +30,28 @@ bool can_concern(const Finding& cause, const Finding& fault) {
   return cause.node.bus == fault.node.bus && (cause.node.mac_id == kNoMacId || fault.node.mac_id == kNoMacId);
 }
 
-bool lies_before(const Finding& cause, const Finding& fault) {
-  return cause.frame <= fault.frame && elapsed_ns(cause.last_time_ns, fault.time_ns) <= kCauseWindowNs;
+// A report of these rules waits for the code, which the drive is asked for; they name the frame in which it rose.
+bool waits_for_code(const Finding& finding) {
+  const std::string_view id = rule_row(finding.rule).id;
+  return id == "YS901" || id == "YS905";
 }
 
+std::uint64_t began_frame(const Finding& finding) {
+  return waits_for_code(finding) && finding.related[0] != 0 ? finding.related[0] : finding.frame;
+}
+
+// Nothing was said for too long: related[0] is the last message before.
+bool is_silence(const Finding& finding) { return rule_row(finding.rule).id == "DN204"; }
+
 // Violations that precede the fault where it happened, in the order of the file.
-std::vector<std::size_t> preceding(const Model& model, std::size_t fault) {
+std::vector<std::size_t> preceding(const Model& model, const Fault& fault) {
   std::vector<std::size_t> result;
-  const Finding& reported = model.findings[fault];
+  const Finding& reported = model.findings[fault.finding];
   for (std::size_t i = 0; i < model.findings.size(); ++i) {
     const Finding& finding = model.findings[i];
-    if (finding.frame > reported.frame) break;  // they are sorted
-    if (i == fault || !can_concern(finding, reported) || !lies_before(finding, reported)) continue;
+    if (finding.frame > fault.frame) break;  // they are sorted
+    if (i == fault.finding || !can_concern(finding, reported)) continue;
+    if (elapsed_ns(finding.last_time_ns, fault.time_ns) > kCauseWindowNs) continue;
     if (finding.actor == Actor::kCapture || finding.severity == Severity::kNote) continue;
     result.push_back(i);
   }
@@ -87,7 +97,7 @@ class Ranking {
     if (reported_.cause.frame == 0) return;
     for (const std::size_t index : fault_.preceding) {
       const Finding& finding = model_.findings[index];
-      if (finding.rule != reported_.cause.rule || finding.frame > reported_.frame ||
+      if (finding.rule != reported_.cause.rule || finding.frame > fault_.frame ||
           finding.last_frame < reported_.cause.frame)
         continue;
       std::string text(rule_row(finding.rule).title);
@@ -157,7 +167,7 @@ class Ranking {
       std::optional<std::size_t> latest;
       for (std::size_t i = 0; i < model_.accesses.size(); ++i) {
         const Access& access = model_.accesses[i];
-        if (access.frame >= reported_.frame) break;
+        if (access.frame >= fault_.frame) break;
         if (same_node(access.node, reported_.node) && access.changes() && access.what.starts_with(symptom.parameter) &&
             written_.count(i) == 0)
           latest = i;
@@ -254,7 +264,7 @@ void rank_all_causes(Model& model) {
   link_faults(model);
 }
 
-void find_faults(Model& model) {
+void find_faults(Model& model, const FrameTimes& times) {
   std::vector<std::size_t> found;
   for (std::size_t i = 0; i < model.findings.size(); ++i) {
     // A state from before the capture is a note: it is told, but nothing in this capture failed with it.
@@ -266,7 +276,7 @@ void find_faults(Model& model) {
     const int left_weight = fault_weight(model.findings[left].rule);
     const int right_weight = fault_weight(model.findings[right].rule);
     if (left_weight != right_weight) return left_weight > right_weight;
-    return model.findings[left].frame < model.findings[right].frame;
+    return began_frame(model.findings[left]) < began_frame(model.findings[right]);
   });
   if (found.size() > kMaxFaults) {
     model.more_faults = found.size() - kMaxFaults;
@@ -276,17 +286,24 @@ void find_faults(Model& model) {
     Fault fault;
     fault.finding = index;
     const Finding& finding = model.findings[index];
-    fault.preceding = preceding(model, index);
+    fault.frame = began_frame(finding);
+    fault.time_ns = fault.frame == finding.frame ? finding.time_ns : times.at(fault.frame, finding.time_ns);
+    fault.preceding = preceding(model, fault);
     Ranking(model, fault).run();
-    // The close-up: from the earliest supported cause, but no less than a fifth of a second and no more than five.
+    // The close-up: from the earliest supported cause or, of a silence, from the last message before it; but no less
+    // than a fifth of a second and no more than five.
     DurationNs before = kSecondNs / 5;
+    if (is_silence(finding)) {
+      const TimeNs last_ns = times.at(finding.related[0], finding.time_ns);
+      before = std::max(before, elapsed_ns(last_ns, fault.time_ns) * 5 / 4);
+    }
     for (const Candidate& cause : fault.causes) {
       if (!cause.finding) continue;
-      before = std::max(before, elapsed_ns(model.findings[*cause.finding].time_ns, finding.time_ns) * 5 / 4);
+      before = std::max(before, elapsed_ns(model.findings[*cause.finding].time_ns, fault.time_ns) * 5 / 4);
     }
     before = std::min(before, 5 * kSecondNs);
-    fault.window_begin_ns = std::max(finding.time_ns - before, model.capture.first_ns);
-    fault.window_end_ns = std::min(finding.time_ns + before / 3, model.capture.last_ns);
+    fault.window_begin_ns = std::max(fault.time_ns - before, model.capture.first_ns);
+    fault.window_end_ns = std::min(fault.time_ns + before / 3, model.capture.last_ns);
     model.faults.push_back(std::move(fault));
   }
 }

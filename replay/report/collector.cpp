@@ -20,7 +20,9 @@ constexpr std::size_t kMaxNodes = 512;
 constexpr std::size_t kScaleSamples = 64;  // intervals that choose the histogram's scale
 constexpr std::size_t kHistogramBins = 60;
 
-constexpr DurationNs kMessagesBefore = 2 * kSecondNs;  // before the window of a fault its messages are kept
+// Messages are kept for a fault from so long before its window on; those of DeviceNet always: a node that fell silent
+// said its last word long ago.
+constexpr DurationNs kMessagesBefore = 2 * kSecondNs;
 
 constexpr std::string_view kCommandPosition = "command_position";
 constexpr std::string_view kActualPosition = "actual_position";
@@ -172,15 +174,17 @@ void Collector::add_close_up(const RawFrame& frame, const Node& node, std::size_
 }
 
 void Collector::add_snapshots(const RawFrame& frame, const Dissection& dissection) {
-  // Only messages of watched nodes are kept, a while before their fault and until it.
+  // Only messages of watched nodes are kept, until their fault.
   for (CloseUp& close_up : close_ups_) {
     if (close_up.taken || close_up.watch.node.mac_id == kNoMacId) continue;
-    if (elapsed_ns(frame.time_ns, close_up.watch.begin_ns) > kMessagesBefore) continue;
+    if (dissection.protocol == Protocol::kRtex && elapsed_ns(frame.time_ns, close_up.watch.begin_ns) > kMessagesBefore)
+      continue;
     const std::uint64_t wanted = key_of(close_up.watch.node);
     const std::size_t index = node_index(close_up.watch.node);
     if (index >= kMaxNodes) continue;
     Node& node = nodes_[index];
     Snapshot made;
+    Parts kind;
     Direction direction = Direction::kNone;
     for (const Segment& segment : dissection.segments) {
       if (segment.node.mac_id == kNoMacId || key_of(segment.node) != wanted || segment.direction == Direction::kNone)
@@ -188,14 +192,16 @@ void Collector::add_snapshots(const RawFrame& frame, const Dissection& dissectio
       const Bytes bytes = dissection.bytes(segment);
       direction = segment.direction;
       made.parts.emplace_back(segment.layout, std::vector<std::uint8_t>(bytes.begin(), bytes.end()));
+      kind.push_back(segment.layout);
     }
     if (made.parts.empty()) continue;
     made.frame = frame.number;
     const auto slot_index = static_cast<std::size_t>(direction);
-    Snapshot& latest = node.latest[slot_index];
-    if (latest.frame != frame.number) {
-      if (latest.frame != 0 && !latest.same_bytes(made)) node.before[slot_index] = std::move(latest);
-      latest = std::move(made);
+    Told& told = node.told[slot_index][kind];
+    node.last[slot_index] = &told;
+    if (told.latest.frame != frame.number) {
+      if (told.latest.frame != 0 && !told.latest.same_bytes(made)) told.before = std::move(told.latest);
+      told.latest = std::move(made);
     }
   }
 }
@@ -207,9 +213,10 @@ void Collector::take_messages(CloseUp& close_up) {
   if (index >= kMaxNodes) return;
   const Node& node = nodes_[index];
   for (const Direction direction : {Direction::kCommand, Direction::kResponse}) {
-    const Snapshot& after = node.latest[static_cast<std::size_t>(direction)];
-    const Snapshot& before = node.before[static_cast<std::size_t>(direction)];
-    if (after.frame == 0) continue;
+    const Told* const told = node.last[static_cast<std::size_t>(direction)];
+    if (told == nullptr) continue;
+    const Snapshot& after = told->latest;
+    const Snapshot& before = told->before;
     MessagePair pair;
     pair.direction = direction;
     pair.after_frame = after.frame;

@@ -3,7 +3,9 @@
 // bounded by nodes and fields, not by frames.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <string>
 #include <unordered_map>
@@ -41,6 +43,12 @@ class Collector {
     std::vector<std::pair<const Layout*, std::vector<std::uint8_t>>> parts;
     bool same_bytes(const Snapshot& other) const { return parts == other.parts; }
   };
+  // The latest message of a kind, and the last one that differed from it.
+  struct Told {
+    Snapshot latest;
+    Snapshot before;
+  };
+  using Parts = std::vector<const Layout*>;  // the layouts of its parts
   // A field of a layout, and where its history is kept.
   struct Kept {
     const Field* field = nullptr;
@@ -61,9 +69,9 @@ class Collector {
     std::int64_t commanded = 0;
     TimeNs commanded_ns = 0;
     bool has_commanded = false;
-    // By direction: the latest message, the last one that differed from it, and one being put together.
-    std::array<Snapshot, 3> latest;
-    std::array<Snapshot, 3> before;
+    // By direction: the messages of each kind, and the kind that came last.
+    std::array<std::map<Parts, Told>, 3> told;
+    std::array<const Told*, 3> last = {};
   };
   struct CloseUp {
     Watch watch;
@@ -107,7 +115,7 @@ class Collector {
   static void scale(Cycle& cycle);
 
   const Settings& settings_;
-  std::vector<Node> nodes_;
+  std::deque<Node> nodes_;  // stays where it is: `last` points into it
   std::unordered_map<std::uint64_t, std::size_t> node_by_key_;
   std::vector<StateTrack> tracks_;
   std::vector<Signal> signals_;

@@ -161,6 +161,10 @@ class Writer {
     node("node", finding.node);
     json_.member("message", message(finding));
     time("time", finding.time_ns);
+    if (fault.frame != finding.frame) {
+      json_.member("began_frame", fault.frame);
+      time("began", fault.time_ns);
+    }
     if (fault.code_frame != 0) {
       json_.key("code").begin_object().member("value", fault.code).member("text", fault.code_text);
       json_.member("frame", fault.code_frame).end_object();

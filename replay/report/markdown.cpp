@@ -104,8 +104,8 @@ class Writer {
     for (const Fault& fault : model_.faults) {
       const Finding& finding = model_.findings[fault.finding];
       add("\n### {}. {}: {}\n\n{} at {}, frame {}: {}.\n", ++number, capitalised(name(finding)),
-          escaped(fault_text(model_, fault)), rule_row(finding.rule).id, at_time(model_, finding.time_ns),
-          finding.frame, escaped(message(finding)));
+          escaped(fault_text(model_, fault)), rule_row(finding.rule).id, at_time(model_, fault.time_ns), fault.frame,
+          escaped(message(finding)));
       for (const Advice& entry : fault.advice) {
         add("\n- {}{} ({})\n", escaped(entry.name),
             entry.likeliest && fault.advice.size() > 1 ? ", by the evidence" : "", escaped(entry.section));

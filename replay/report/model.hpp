@@ -85,7 +85,9 @@ struct Advice {
 };
 
 struct Fault {
-  std::size_t finding = 0;             // index into Model::findings: what was reported
+  std::size_t finding = 0;  // index into Model::findings: what was reported
+  std::uint64_t frame = 0;  // where it began: an alarm may have risen before its code was read
+  TimeNs time_ns = 0;
   std::vector<std::size_t> preceding;  // violations before it at the same node or bus, latest last
   std::vector<Candidate> causes;       // ranked, the likeliest first
   std::vector<Advice> advice;          // what the manual says of the code, the likeliest first

@@ -27,8 +27,12 @@ void Page::fault(const Fault& fault, std::size_t number) {
   const Rule& row = rule_row(finding.rule);
   add("<h3>{}. {}: {}</h3>\n", number, e(capitalised(name_of_finding(finding))), e(fault_text(model_, fault)));
   add("<p>{} {} at {}, frame {}: {}. {}</p>\n", severity(finding.severity), rule_link(finding.rule),
-      at_time(model_, finding.time_ns), finding.frame, e(row.title), e(row.why));
+      at_time(model_, fault.time_ns), fault.frame, e(row.title), e(row.why));
+  if (fault.frame != finding.frame)
+    add("<p>Reported {} later, in frame {}: the drive is asked for the code.</p>\n",
+        duration_text(elapsed_ns(fault.time_ns, finding.time_ns)), finding.frame);
   if (fault.code_frame != 0) add("<p>Alarm code read in frame {}: {}.</p>\n", fault.code_frame, e(fault.code_text));
+  if (fault.frame != finding.frame) evidence(fault.frame, finding.node);
   evidence(finding.frame, finding.node);
   advice(fault);
   causes(fault);
@@ -72,7 +76,6 @@ void Page::advice(const Fault& fault) {
 
 void Page::causes(const Fault& fault) {
   if (fault.causes.empty()) return;
-  const Finding& finding = model_.findings[fault.finding];
   add("<h4>Causes, the likeliest first</h4>\n<ol class=\"causes\">\n");
   for (const Candidate& cause : fault.causes) {
     add("<li><span class=\"chip {}\">{}</span> {} <span class=\"facts\">({})</span>", cause.supported ? "yes" : "maybe",
@@ -80,13 +83,13 @@ void Page::causes(const Fault& fault) {
     if (cause.finding && *cause.finding != fault.finding) {
       const Finding& shown = model_.findings[*cause.finding];
       add("<br>{} at {}, frame {}, {} before: {}", rule_link(shown.rule), e(name_of_finding(shown)), shown.frame,
-          duration_text(elapsed_ns(shown.time_ns, finding.time_ns)), e(message(shown)));
+          duration_text(elapsed_ns(shown.time_ns, fault.time_ns)), e(message(shown)));
       if (shown.count > 1) add(" ({} times up to frame {})", shown.count, shown.last_frame);
     }
     if (cause.access) {
       const Access& access = model_.accesses[*cause.access];
       add("<br>{}, frame {}, {} before: {} \xE2\x86\x92 {}", e(access.what), access.frame,
-          duration_text(elapsed_ns(access.time_ns, finding.time_ns)), e(access.before), e(access.value));
+          duration_text(elapsed_ns(access.time_ns, fault.time_ns)), e(access.before), e(access.value));
     }
     add("</li>\n");
   }
@@ -95,14 +98,13 @@ void Page::causes(const Fault& fault) {
 
 void Page::before(const Fault& fault) {
   if (fault.preceding.empty()) return;
-  const Finding& finding = model_.findings[fault.finding];
   add("<h4>Violations that precede it</h4>\n");
   begin_table({{"frame", true}, {"before it", true}, {"rule"}, {"who"}, {"what"}});
   for (const std::size_t index : fault.preceding) {
     const Finding& entry = model_.findings[index];
     add("<tr><td class=\"number\">{}</td><td class=\"number\">{}</td><td>{}</td><td "
         "class=\"who\">{}</td><td>{}{}</td></tr>\n",
-        entry.frame, duration_text(elapsed_ns(entry.time_ns, finding.time_ns)), rule_link(entry.rule),
+        entry.frame, duration_text(elapsed_ns(entry.time_ns, fault.time_ns)), rule_link(entry.rule),
         e(name_of_finding(entry)), e(message(entry)),
         entry.count > 1 ? fmt::format(" ({} times up to frame {})", entry.count, entry.last_frame) : "");
   }
@@ -111,7 +113,8 @@ void Page::before(const Fault& fault) {
 
 void Page::messages(const Fault& fault) {
   if (fault.messages.empty()) return;
-  add("<h4>Last command and response</h4>\n<p class=\"facts\">Each beside the last different one before it. Fields "
+  add("<h4>Last command and response</h4>\n<p class=\"facts\">Each beside the last different one of its kind before "
+      "it. Fields "
       "that "
       "changed are marked and stand first.</p>\n<div class=\"pair\">\n");
   for (const MessagePair& pair : fault.messages) message_pair(pair);
@@ -120,8 +123,17 @@ void Page::messages(const Fault& fault) {
 
 void Page::message_pair(const MessagePair& pair) {
   const std::string_view direction = pair.direction == Direction::kCommand ? "Command" : "Response";
-  const std::string before = pair.before_frame != 0 ? fmt::format("frame {}", pair.before_frame) : "before";
   const std::string after = fmt::format("frame {}", pair.after_frame);
+  if (pair.before_frame == 0) {
+    add("<div>");
+    begin_table({{direction}, {after}});
+    for (const FieldRow& row : pair.rows)
+      add("<tr><td><span title=\"{}\">{}</span></td><td>{}</td></tr>\n", e(row.filter), e(row.label), e(row.after));
+    end_table();
+    add("<p class=\"facts\">None of this kind came before it.</p></div>\n");
+    return;
+  }
+  const std::string before = fmt::format("frame {}", pair.before_frame);
   const auto rows = [&](bool differing) {
     begin_table({{direction}, {before}, {after}});
     for (const FieldRow& row : pair.rows) {

@@ -150,7 +150,7 @@ void draw_track(Svg& svg, const StateTrack& track, const std::string& label, con
     const ValueName* name = find_value(track.field->values, open.value);
     if (open.states == 1 && track.field->kind != Kind::kBool && name != nullptr &&
         width > 7.0 * static_cast<double>(name->name.size()) + 6)
-      svg.text(open.begin + 4, y + kBar - 2.5, name->name, "in-bar");
+      svg.text(open.begin + 4, y + kBar - 2.5, name->name, bad ? "in-bar on-bad" : "in-bar");
     open = {};
   };
   std::uint32_t joined = 0;
@@ -237,8 +237,9 @@ std::string timeline(const Model& model, const Settings& settings, const replay:
   }
   if (!model.faults.empty()) {
     const Finding& first = model.findings[model.faults.front().finding];
-    if (first.time_ns >= axis.begin_ns && first.time_ns <= axis.end_ns) {
-      const double x = axis.x(first.time_ns);
+    const TimeNs began_ns = model.faults.front().time_ns;
+    if (began_ns >= axis.begin_ns && began_ns <= axis.end_ns) {
+      const double x = axis.x(began_ns);
       svg.line(x, kTop - 6, x, height, "first-fault");
       const bool left = x > kWidth - 200;
       svg.text(left ? x - 5 : x + 5, kTop - 9, fmt::format("first fault: {}", rule_row(first.rule).id),
@@ -250,8 +251,8 @@ std::string timeline(const Model& model, const Settings& settings, const replay:
 
 std::string curves(const Model& model, const Fault& fault) {
   constexpr std::size_t kMaxCurves = 8;
-  constexpr double kCurve = 92;  // a signal: its name, and below it the curve
-  constexpr double kName = 16;
+  constexpr double kCurve = 96;  // a signal: its name, and below it the curve
+  constexpr double kName = 20;
   std::vector<const Signal*> shown;
   for (const Signal& signal : fault.signals) {  // what moves first, what stands still only where nothing moves
     if (!signal.series.is_constant() && shown.size() < kMaxCurves) shown.push_back(&signal);
@@ -290,15 +291,16 @@ std::string curves(const Model& model, const Fault& fault) {
     top += kCurve;
   }
   const Finding& reported = model.findings[fault.finding];
-  const auto draw = [&](const Finding& finding, std::string_view css_class) {
-    if (finding.time_ns < axis.begin_ns || finding.time_ns > axis.end_ns) return;
-    const double x = axis.x(finding.time_ns);
+  const auto draw = [&](const Finding& finding, TimeNs time_ns, std::string_view css_class) {
+    if (time_ns < axis.begin_ns || time_ns > axis.end_ns) return;
+    const double x = axis.x(time_ns);
     svg.line(x, 8, x, bottom, css_class);
     svg.mark(mark_shape(finding.severity), x, 8, mark_class(finding.severity),
              fmt::format("{} (frame {}): {}", rule_row(finding.rule).id, finding.frame, message(finding)));
   };
-  for (const std::size_t index : fault.preceding) draw(model.findings[index], "violation-line");
-  draw(reported, "first-fault");
+  for (const std::size_t index : fault.preceding)
+    draw(model.findings[index], model.findings[index].time_ns, "violation-line");
+  draw(reported, fault.time_ns, "first-fault");
   return svg.str();
 }
 

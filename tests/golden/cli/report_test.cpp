@@ -95,6 +95,47 @@ INSTANTIATE_TEST_SUITE_P(
                                "never ends and never waits", "YS304", "", 5, "chain of command blocks"}),
     [](const ::testing::TestParamInfo<Expected>& row) { return row.param.scenario; });
 
+// The alarm counts from its rise, though its code is read (and the finding made) later.
+TEST(FailureReportsTimes, AnAlarmIsDatedByItsRise) {
+  const Program program;
+  const nlohmann::json report = report_of(program, "failure_limit");
+  const nlohmann::json& fault = report["faults"][0];
+  std::uint64_t risen = 0;
+  for (const nlohmann::json& track : report["states"]) {
+    if (!std::string(track["field"]).ends_with(".alarm")) continue;
+    for (const nlohmann::json& change : track["changes"])
+      risen = risen == 0 ? change["frame"].get<std::uint64_t>() : risen;
+  }
+  ASSERT_NE(risen, 0U);
+  EXPECT_EQ(fault["began_frame"], risen);
+  EXPECT_LT(fault["began_frame"], fault["frame"]);
+  EXPECT_LT(std::string(fault["began"]), std::string(fault["time"]));
+  EXPECT_THAT(std::string(report["verdict"]["headline"]),
+              HasSubstr(" (frame " + std::to_string(risen) + "): alarm 0Ah"));
+  for (const nlohmann::json& pair : fault["messages"]) EXPECT_LE(pair["frame"], risen);
+}
+
+// The close-up of a silence begins at the last message before it, and the node's last words are shown beside others of
+// their kind.
+TEST(FailureReportsTimes, ASilenceIsShownFromItsBeginning) {
+  const Program program;
+  const nlohmann::json report = report_of(program, "failure_poll_timeout");
+  bool response = false;
+  for (const nlohmann::json& pair : report["faults"][0]["messages"]) {
+    if (pair["direction"] != "response") continue;
+    response = true;
+    EXPECT_TRUE(pair.contains("before_frame"));
+    EXPECT_LT(pair["frame"], report["faults"][0]["frame"]);
+  }
+  EXPECT_TRUE(response);
+  ASSERT_EQ(program.run({"report", "run.pcapng", "-o", "run.html"}).status, 0);
+  const std::string html = program.read("run.html");
+  const std::size_t window = html.find("The window before it");
+  ASSERT_NE(window, std::string::npos);
+  EXPECT_THAT(html.substr(window),
+              HasSubstr("<text x=\"4.0\" y=\"20.0\" class=\"lane-name\" text-anchor=\"start\">Current Speed"));
+}
+
 // Every scenario of a failure has its line above.
 TEST(FailureReportsList, IsWhole) {
   std::size_t failures = 0;
