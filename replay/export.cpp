@@ -24,7 +24,7 @@ class Finder : public FrameVisitor {
  public:
   Finder(SeriesList& list, bool states) : list_(list), states_(states) {}
   bool on_frame(const RawFrame&, const Dissection* dissection, const Pipeline&, const Source&) override {
-    if (dissection != nullptr) list_.for_each(*dissection, states_, [](std::size_t, const Field&, std::int64_t) {});
+    if (dissection != nullptr) list_.note(*dissection, states_);
     return true;
   }
 
@@ -211,14 +211,16 @@ int run_export(const Arguments& arguments) {
   const std::vector<Series> series = list.named(found.buses);
   const Result<std::unique_ptr<WholeFile>> file = WholeFile::create(out_path);
   if (!file) return fail(file.error());
+  CaptureResult again;
   if (csv) {
     CsvWriter writer(list, series, found.first_time_ns.value_or(0), **file);
-    run_input(*input, decoder, {.visitor = &writer, .stop = &interrupted(), .on_progress = {}});
+    again = run_input(*input, decoder, {.visitor = &writer, .stop = &interrupted(), .on_progress = {}});
   } else {
     TraceWriter writer(list, series, **file);
-    run_input(*input, decoder, {.visitor = &writer, .stop = &interrupted(), .on_progress = {}});
+    again = run_input(*input, decoder, {.visitor = &writer, .stop = &interrupted(), .on_progress = {}});
     writer.finish();
   }
+  if (again.error) return fail(not_written(*again.error, out_path));
   if (interrupted()) return fail(not_written({"", "interrupted"}, out_path));
   if (const Result<void> written = (*file)->finish(); !written) return fail(written.error());
   return kExitClean;

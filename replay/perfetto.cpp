@@ -80,30 +80,30 @@ void PerfettoWriter::counter_track(std::uint64_t uuid, std::uint64_t parent, std
   packet(content);
 }
 
-void PerfettoWriter::event(std::uint64_t uuid, TimeNs time_ns, unsigned type, const std::string& more) {
-  std::string body;
-  put_number(body, kEventType, type);
-  put_number(body, kEventTrack, uuid);
-  body += more;
-  std::string content;
-  put_number(content, kPacketTimestamp, static_cast<std::uint64_t>(time_ns));
-  put_number(content, kPacketSequence, 1);
-  put_bytes(content, kPacketTrackEvent, body);
-  packet(content);
+void PerfettoWriter::event(std::uint64_t uuid, TimeNs time_ns, unsigned type, std::string_view more) {
+  body_.clear();
+  put_number(body_, kEventType, type);
+  put_number(body_, kEventTrack, uuid);
+  body_ += more;
+  content_.clear();
+  put_number(content_, kPacketTimestamp, static_cast<std::uint64_t>(time_ns));
+  put_number(content_, kPacketSequence, 1);
+  put_bytes(content_, kPacketTrackEvent, body_);
+  packet(content_);
 }
 
 void PerfettoWriter::begin_slice(std::uint64_t uuid, TimeNs time_ns, std::string_view name) {
-  std::string more;
-  put_bytes(more, kEventName, name);
-  event(uuid, time_ns, kSliceBegin, more);
+  more_.clear();
+  put_bytes(more_, kEventName, name);
+  event(uuid, time_ns, kSliceBegin, more_);
 }
 
 void PerfettoWriter::end_slice(std::uint64_t uuid, TimeNs time_ns) { event(uuid, time_ns, kSliceEnd, {}); }
 
 void PerfettoWriter::counter(std::uint64_t uuid, TimeNs time_ns, double value) {
-  std::string more;
-  put_double(more, kEventDouble, value);
-  event(uuid, time_ns, kCounter, more);
+  more_.clear();
+  put_double(more_, kEventDouble, value);
+  event(uuid, time_ns, kCounter, more_);
 }
 
 }  // namespace servotrace::replay

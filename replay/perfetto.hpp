@@ -25,9 +25,13 @@ class PerfettoWriter {
 
  private:
   void packet(const std::string& content);
-  void event(std::uint64_t uuid, TimeNs time_ns, unsigned type, const std::string& more);
+  void event(std::uint64_t uuid, TimeNs time_ns, unsigned type, std::string_view more);
 
   std::string& out_;
+  // Kept from event to event, so that none allocates.
+  std::string more_;
+  std::string body_;
+  std::string content_;
 };
 
 }  // namespace servotrace::replay

@@ -14,6 +14,29 @@ bool Answered::operator()(const Dissection& dissection, const Segment& segment) 
   return answered_ || segment.direction != Direction::kResponse;
 }
 
+const std::vector<SeriesList::Column>& SeriesList::columns(const Segment& segment, bool states) {
+  const NodeRef& node = segment.node;
+  const Place place{segment.layout, static_cast<std::uint64_t>(node.bus.interface_id) << 32U |
+                                        static_cast<std::uint64_t>(node.bus.kind) << 24U |
+                                        static_cast<std::uint64_t>(node.bus.number) << 16U |
+                                        static_cast<std::uint16_t>(node.mac_id)};
+  const auto [entry, is_new] = columns_.try_emplace(place);
+  if (!is_new) return entry->second;
+  for (const Field& field : segment.layout->fields) {
+    if (field.role == Role::kPlain || (field.role == Role::kState && !states)) continue;
+    const Slot slot = slot_of(field);
+    if (slot.width != 0) entry->second.push_back({&field, slot, number(segment, field)});
+  }
+  return entry->second;
+}
+
+void SeriesList::note(const Dissection& dissection, bool states) {
+  Answered answered;
+  for (const Segment& segment : dissection.segments) {
+    if (answered(dissection, segment) && segment.node.mac_id != kNoMacId) columns(segment, states);
+  }
+}
+
 std::size_t SeriesList::number(const Segment& segment, const Field& field) {
   const NodeRef& node = segment.node;
   const Key key{node.bus.interface_id,

@@ -7,8 +7,10 @@
 #include <map>
 #include <string>
 #include <tuple>
+#include <unordered_map>
 #include <vector>
 
+#include "decoder/core/slot.hpp"
 #include "replay/run.hpp"
 
 namespace servotrace::replay {
@@ -33,21 +35,21 @@ class Answered {
 // Finds the series of a dissection; a series keeps its number through the capture.
 class SeriesList {
  public:
-  // visit(series number, field, raw value) for every signal (and state, where `states`) of the frame.
+  // visit(series number, field, raw value) for every signal (and state, where `states`) of the frame. `states` is the
+  // same in every call.
   template <class Visit>
   void for_each(const Dissection& dissection, bool states, Visit visit) {
     Answered answered;
     for (const Segment& segment : dissection.segments) {
       if (!answered(dissection, segment) || segment.node.mac_id == kNoMacId) continue;
       const Bytes bytes = dissection.bytes(segment);
-      for (const Field& field : segment.layout->fields) {
-        if (field.role == Role::kPlain || (field.role == Role::kState && !states)) continue;
-        const Slot place = slot_of(field);
-        if (place.width == 0) continue;
-        visit(number(segment, field), field, read(place, bytes));
+      for (const Column& column : columns(segment, states)) {
+        visit(column.number, *column.field, read(column.slot, bytes));
       }
     }
   }
+  // Takes note of the series of the frame, without their values.
+  void note(const Dissection& dissection, bool states);
   // Names them; after the last frame.
   std::vector<Series> named(const BusNames& buses) const;
 
@@ -60,8 +62,26 @@ class SeriesList {
     const Layout* layout = nullptr;
     const Field* field = nullptr;
   };
+  // A field of a layout at a node, with the number of its series.
+  struct Column {
+    const Field* field = nullptr;
+    Slot slot;
+    std::size_t number = 0;
+  };
+  struct Place {
+    const Layout* layout = nullptr;
+    std::uint64_t node = 0;
+    bool operator==(const Place&) const = default;
+  };
+  struct PlaceHash {
+    std::size_t operator()(const Place& place) const {
+      return std::hash<const void*>()(place.layout) ^ std::hash<std::uint64_t>()(place.node * 0x9E3779B97F4A7C15U);
+    }
+  };
+  const std::vector<Column>& columns(const Segment& segment, bool states);
   std::size_t number(const Segment& segment, const Field& field);
 
+  std::unordered_map<Place, std::vector<Column>, PlaceHash> columns_;
   std::map<Key, std::size_t> numbers_;
   std::vector<Entry> entries_;
 };
