@@ -113,6 +113,11 @@ FindingRecord finding_of(const json& line, RuleId rule) {
   finding.basis = basis_of(line);
   finding.place = {finding.frame, number_of(line, "byte_offset"),
                    static_cast<std::uint32_t>(number_of(line, "byte_length"))};
+  for (const json& entry : member(line, "evidence")) {
+    if (entry.is_object())
+      finding.evidence.push_back(
+          {number_of(entry, "frame"), time_of(entry, "time").value_or(0), text_of(entry, "text")});
+  }
   return finding;
 }
 

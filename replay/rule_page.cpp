@@ -15,6 +15,47 @@ std::string part(std::string_view title, std::string_view text, const Style& sty
   return fmt::format("\n{}{}{}\n{}", style.bold(), title, style.reset(), wrapped(text, 4));
 }
 
+// What stands at a place of a message, where nothing was found yet.
+std::string placeholder(const Argument& argument) {
+  switch (argument.format) {
+    case ArgumentFormat::kMilliseconds:
+    case ArgumentFormat::kMicroseconds:
+      return "<time>";
+    case ArgumentFormat::kParameter:
+      return "<Pr number>";
+    case ArgumentFormat::kMainSub:
+      return "<main.sub (name)>";
+    case ArgumentFormat::kExactly:
+      return "<, exactly main.sub (name)>";
+    case ArgumentFormat::kBits:
+      return "<numbers>";
+    case ArgumentFormat::kFlags:
+      return "<names>";
+    case ArgumentFormat::kDecimalName:
+      return "<number (name)>";
+    case ArgumentFormat::kHex2Name:
+    case ArgumentFormat::kHex4Name:
+    case ArgumentFormat::kHex8Name:
+      return "<code (name)>";
+    case ArgumentFormat::kHex2:
+    case ArgumentFormat::kHex4:
+    case ArgumentFormat::kHex8:
+      return "<code>";
+    case ArgumentFormat::kName: {
+      constexpr std::size_t kMost = 48;  // of letters, for all the names
+      std::string names;
+      for (const ValueName& value : argument.names) {
+        if (value.name.empty()) return "<name>";
+        names += fmt::format("{}{}", names.empty() ? "" : " | ", value.name);
+      }
+      return names.empty() || names.size() > kMost ? "<name>" : "<" + names + ">";
+    }
+    case ArgumentFormat::kDecimal:
+      break;
+  }
+  return "<number>";
+}
+
 // A trace as `check` and `decode --brief` print it.
 std::string part_of(std::string_view title, const Example& example, const Style& style) {
   if (example.scenario.empty()) return "";
@@ -29,6 +70,19 @@ std::string part_of(std::string_view title, const Example& example, const Style&
 }
 
 }  // namespace
+
+std::string message_pattern(const Rule& row) {
+  std::string text;
+  for (std::size_t i = 0; i < row.message.size(); ++i) {
+    if (row.message[i] != '{') {
+      text += row.message[i];
+      continue;
+    }
+    text += placeholder(row.arguments[static_cast<std::size_t>(row.message[i + 1] - '0')]);
+    i += 2;
+  }
+  return text;
+}
 
 std::string_view repeat_text(Repeat repeat) {
   switch (repeat) {
@@ -66,7 +120,7 @@ std::string wrapped(std::string_view text, std::size_t indent, std::size_t width
 std::string rule_page(const Rule& row, const Style& style) {
   std::string text = fmt::format("{}{} {}{}\n{}", style.bold(), row.id, row.slug, style.reset(), wrapped(row.title, 4));
   text += part("Severity", fmt::format("{}; done by the {}", name_of(row.severity), name_of(row.actor)), style);
-  text += part("Message", row.message, style);
+  text += part("Message", message_pattern(row), style);
   text += part("Why it matters", row.why, style);
   text += part("How to fix it", row.fix, style);
   text += part("Manual", row.section, style);

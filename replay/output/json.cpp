@@ -12,6 +12,8 @@ class Json : public Output {
  public:
   using Output::Output;
 
+  bool wants_evidence() const override { return true; }
+
   void begin() override {
     json_.begin_object().key("captures").begin_array();
     hand_over();

@@ -11,6 +11,9 @@ class Jsonl : public Output {
  public:
   using Output::Output;
 
+  // For merge, which shows it as `check` would.
+  bool wants_evidence() const override { return true; }
+
   void capture(const CaptureRecord& capture) override {
     line("capture", [&](JsonWriter& json) { write_capture(json, capture); });
     const auto of_file = [&](std::string_view type, auto write, const auto& record) {

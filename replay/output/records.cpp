@@ -128,6 +128,13 @@ void write_finding(JsonWriter& json, const FindingRecord& finding) {
     json.member("byte_offset", finding.place.offset);
     json.member("byte_length", std::uint64_t{finding.place.length});
   }
+  if (finding.evidence.empty()) return;
+  json.key("evidence").begin_array();
+  for (const EvidenceLine& line : finding.evidence) {
+    json.begin_object().member("frame", line.frame).member("time", seconds_text(line.time_ns));
+    json.member("text", line.text).end_object();
+  }
+  json.end_array();
 }
 
 void write_rule(JsonWriter& json, const RuleRecord& rule) {
