@@ -96,9 +96,13 @@ int run_servotrace(const Arguments& arguments) {
   return kExitFailed;
 }
 
-void CaptureOptions::add_to(CLI::App& app) {
+void CaptureOptions::add_config_to(CLI::App& app) {
   app.add_option("--config", config_, "Settings file (default: servotrace.toml found upward from the capture's folder)")
       ->type_name("FILE");
+}
+
+void CaptureOptions::add_to(CLI::App& app) {
+  add_config_to(app);
   app.add_flag("--devicenet", devicenet_, "Take 11-bit CAN for DeviceNet without further evidence");
 }
 

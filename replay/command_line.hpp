@@ -33,6 +33,8 @@ std::optional<int> parse(CLI::App& app, const Arguments& arguments);
 class CaptureOptions {
  public:
   void add_to(CLI::App& app);
+  // --config alone, for a command that takes frames as they are.
+  void add_config_to(CLI::App& app);
   // The settings of a capture (an empty path: a stream): --config, else servotrace.toml found upward, else defaults.
   // Read once a file. The pointer is never null.
   Result<std::shared_ptr<const FileSettings>> settings(const std::filesystem::path& capture);

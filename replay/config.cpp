@@ -155,7 +155,9 @@ int run_config(const Arguments& arguments) {
   app.add_option("--init", capture, "The capture")->required()->type_name("CAPTURE");
   app.add_option("-o,--output", out_path, "The file to write (default: standard output)")->type_name("FILE");
   capture_options.add_to(app);
-  app.footer("Example:\n  servotrace config --init run.pcapng -o servotrace.toml");
+  app.footer(
+      "Exit status: 0 done, 2 could not do the job, 3 no frame of a known bus.\n\n"
+      "Example:\n  servotrace config --init run.pcapng -o servotrace.toml");
   if (const std::optional<int> status = parse(app, arguments)) return *status;
   const auto fail = [](const Error& error) {
     complain(error);

@@ -159,6 +159,7 @@ int run_convert(const Arguments& arguments) {
   std::string map_path;
   std::string out_path;
   std::string carrier_word = "keep";
+  bool partial = false;
   CaptureOptions capture_options;
   app.add_option("IN", capture, "A capture or log, or - for standard input")->required();
   app.add_option("-o,--output", out_path, "The capture to write (.pcapng)")->required()->type_name("OUT");
@@ -167,9 +168,12 @@ int run_convert(const Arguments& arguments) {
       ->capture_default_str();
   app.add_option("--map", map_path, "IN is a log (CSV or text), and this file says which column holds what")
       ->type_name("FILE");
-  capture_options.add_to(app);
+  app.add_flag("--partial", partial, "Of an IN that is cut or cannot be read on: write what stands before that place");
+  capture_options.add_config_to(app);
   app.footer(
-      "Exit status: 0 done, 2 could not do the job.\n\n"
+      "Exit status: 0 done, 2 could not do the job; without --partial nothing is written where IN cannot be read to "
+      "its "
+      "end.\n\n"
       "Examples:\n  servotrace convert candump.log -o can.pcapng\n"
       "  servotrace convert run.pcap -o run.pcapng --carrier pdu\n"
       "  servotrace convert trace.csv -o trace.pcapng --map columns.toml");
@@ -200,10 +204,18 @@ int run_convert(const Arguments& arguments) {
   // A stream that is interrupted ends like a capture.
   const bool stopped = interrupted();
   if (stopped && !input->is_stream()) return fail(not_written({"", "interrupted"}, out_path));
-  if (!stopped && step == Source::Step::kError) return fail(not_written(source.error(), out_path));
+  std::optional<Error> broken;
+  if (!stopped && step == Source::Step::kError) broken = source.error();
+  if (!stopped && !broken && source.truncation()) broken = Error{input->name, "ends inside a record"};
+  if (broken && !partial) {
+    broken->what += fmt::format("; {} is not written (--partial: write what stands before it)", out_path);
+    return fail(*broken);
+  }
   if (const Result<void> written = (*writer)->finish(); !written) return fail(written.error());
-  if (source.truncation() && !stopped)
-    complain(Error{input->name, "ends inside a record: what came before it was converted"});
+  if (broken) {
+    broken->what += "; what stands before it was converted";
+    complain(*broken);
+  }
   if (opened->log != nullptr && opened->log->incomplete() != 0) {
     complain(Error{input->name, fmt::format("{} records left out: the rows of some axes are missing in their cycles",
                                             opened->log->incomplete())});

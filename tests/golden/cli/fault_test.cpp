@@ -81,6 +81,45 @@ TEST_F(Fault, StandardInputCannotBeRead) {
   }
 }
 
+// The reader of the pipe cuts the file while the program waits for it: the rest is gone under its hands.
+TEST_F(Fault, AFileIsCutWhileItIsRead) {
+  const Outcome outcome = program.shell(
+      "servotrace decode run.pcapng | (head -c 1; truncate -s 8192 run.pcapng; cat) >out; echo ${PIPESTATUS[0]}");
+  EXPECT_EQ(outcome.out, "2\n");
+  EXPECT_THAT(outcome.err, HasSubstr("run.pcapng: byte "));
+  EXPECT_THAT(outcome.err, HasSubstr("cannot be read on: the file was cut while it was read, or its disk fails\n"));
+  EXPECT_THAT(program.read("out"), testing::StartsWith("1 ")) << "what was read before is told";
+}
+
+// A connection that is reset in the middle of a capture: what comes before it is judged, and no file is made of it.
+TEST_F(Fault, AConnectionIsResetInTheMiddle) {
+  if (program.shell("command -v python3").status != 0) GTEST_SKIP() << "no python3 to make the connection";
+  program.write("feed.py",
+                "import socket, subprocess, sys, threading\n"
+                "ours, theirs = socket.socketpair()\n"
+                "theirs.sendall(b'x')\n"  // bytes nobody reads make the close a reset
+                "def feed():\n"
+                "    data = open('run.pcapng', 'rb').read()\n"
+                "    ours.sendall(data[:len(data) // 2])\n"
+                "    ours.close()\n"
+                "thread = threading.Thread(target=feed)\n"
+                "thread.start()\n"
+                "done = subprocess.run(['servotrace'] + sys.argv[1:], stdin=theirs)\n"
+                "thread.join()\n"
+                "sys.exit(done.returncode)\n");
+  for (const char* arguments :
+       {"check -", "decode - --brief", "info -", "convert - -o out.pcapng", "annotate - -o out.pcapng"}) {
+    const Outcome outcome = program.shell(std::string("python3 feed.py ") + arguments);
+    EXPECT_EQ(outcome.status, 2) << arguments;
+    EXPECT_THAT(outcome.err, HasSubstr("cannot be read on: Connection reset by peer")) << arguments;
+    EXPECT_THAT(files(), ElementsAre("feed.py", "run.pcapng")) << arguments;
+  }
+  const Outcome partial = program.shell("python3 feed.py convert - -o out.pcapng --partial");
+  EXPECT_EQ(partial.status, 0) << partial.err;
+  EXPECT_THAT(partial.err, HasSubstr("Connection reset by peer; what stands before it was converted\n"));
+  EXPECT_THAT(program.run({"check", "out.pcapng"}).out, testing::StartsWith("clean: no findings in "));
+}
+
 class BrokenStream : public Fault, public ::testing::WithParamInterface<const char*> {
  protected:
   void SetUp() override {
@@ -115,7 +154,7 @@ TEST_P(BrokenStream, NoFileIsMadeOfHalf) {
       EXPECT_THAT(outcome.err, HasSubstr("stream ends early")) << arguments;
       // The half of the zstd file is too short to be begun with: no output was thought of yet.
       if (std::string_view(GetParam()) == "gzip") {
-        EXPECT_THAT(outcome.err, HasSubstr("; " + name + " is not written\n")) << arguments;
+        EXPECT_THAT(outcome.err, HasSubstr("; " + name + " is not written")) << arguments;
       }
       if (is_old) {
         EXPECT_EQ(program.read(name), "as it was") << arguments;
@@ -126,15 +165,31 @@ TEST_P(BrokenStream, NoFileIsMadeOfHalf) {
   }
 }
 
-// A recording that was cut holds whole records: they are a whole file, and the cut is said.
-TEST_F(Fault, ARecordingThatWasCutIsConvertedUpToItsLastRecord) {
-  ASSERT_EQ(program.shell("head -c -30 run.pcapng > cut.pcapng").status, 0);
-  const Outcome outcome = program.run({"convert", "cut.pcapng", "-o", "out.pcapng"});
-  EXPECT_EQ(outcome.status, 0);
-  EXPECT_EQ(outcome.err, "servotrace: cut.pcapng: ends inside a record: what came before it was converted\n");
-  const Outcome read = program.run({"check", "out.pcapng"});
-  EXPECT_EQ(read.status, 0) << read.err;
-  EXPECT_THAT(read.out, testing::StartsWith("clean: no findings in "));
+// A recording that was cut, plain or compressed, is no whole file; what it holds is to be had on request.
+TEST_F(Fault, ARecordingThatWasCutIsConvertedOnRequest) {
+  ASSERT_EQ(program
+                .shell("head -c -30 run.pcapng > cut.pcapng; gzip -k run.pcapng; "
+                       "head -c -30 run.pcapng.gz > cut.pcapng.gz; rm run.pcapng*")
+                .status,
+            0);
+  const std::vector<std::pair<std::string, std::string>> recordings = {{"cut.pcapng", "ends inside a record"},
+                                                                       {"cut.pcapng.gz", "the gzip stream ends early"}};
+  for (const auto& [name, why] : recordings) {
+    const Outcome refused = program.run({"convert", name, "-o", "out.pcapng"});
+    EXPECT_EQ(refused.status, 2) << name;
+    EXPECT_THAT(refused.err, HasSubstr(why)) << name;
+    EXPECT_THAT(refused.err,
+                testing::EndsWith("; out.pcapng is not written (--partial: write what stands before it)\n"));
+    EXPECT_THAT(files(), ElementsAre("cut.pcapng", "cut.pcapng.gz"));
+    const Outcome outcome = program.run({"convert", name, "-o", "out.pcapng", "--partial"});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr(why)) << name;
+    EXPECT_THAT(outcome.err, testing::EndsWith("; what stands before it was converted\n")) << name;
+    const Outcome read = program.run({"check", "out.pcapng"});
+    EXPECT_EQ(read.status, 0) << read.err;
+    EXPECT_THAT(read.out, testing::StartsWith("clean: no findings in ")) << name;
+    std::filesystem::remove(program.folder() / "out.pcapng");
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, BrokenStream, ::testing::Values("gzip", "zstd"));
