@@ -42,7 +42,9 @@ int run_report(const Arguments& arguments) {
   std::vector<std::string> captures;
   std::string out_path;
   app.add_option("CAPTURE", captures, "files or folders")->required();
-  app.add_option("-o,--output-file", out_path, "where to write: FILE.html, FILE.md or FILE.json")->required();
+  app.add_option("-o,--output", out_path, "where to write: FILE.html, FILE.md or FILE.json")
+      ->required()
+      ->type_name("FILE");
   std::string against;
   app.add_option("--against", against, "compare: show where CAPTURE and this one part (one CAPTURE only)")
       ->type_name("CAPTURE");

@@ -363,7 +363,9 @@ void RingSimulation::simulate() {
   std::int64_t wall_cycle = 0;  // what passes on the clock
   while (idle_cycles <= config_.tail_cycles) {
     if (wall_cycle > kLongestRing) {
-      job_.problems.add(job_.table.source(), "the ring does not come to an end");
+      job_.problems.add(job_.table.source(),
+                        "the ring is not done after 400000 communication cycles, the most a scenario "
+                        "may take; a step waits for what never comes, or the steps are too long");
       return;
     }
     ring_.cycle = wall_cycle;
