@@ -130,7 +130,7 @@ void Page::message_pair(const MessagePair& pair) {
     for (const FieldRow& row : pair.rows)
       add("<tr><td><span title=\"{}\">{}</span></td><td>{}</td></tr>\n", e(row.filter), e(row.label), e(row.after));
     end_table();
-    add("<p class=\"facts\">None of this kind came before it.</p></div>\n");
+    add("<p class=\"facts\">No different one of its kind came before it.</p></div>\n");
     return;
   }
   const std::string before = fmt::format("frame {}", pair.before_frame);
