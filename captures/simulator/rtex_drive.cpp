@@ -286,6 +286,8 @@ void A5nDrive::move(Bytes command) {
     default:
       break;
   }
+  // 7-7-4: such a feedforward is refused after the stop, and counts as 0.
+  if (fresh && motor_.speed == 0 && feeds_toward_input(command)) inhibited_ = true;
   watch_triggers(before);
 }
 

@@ -132,6 +132,7 @@ class A5nDrive {
   void watch_triggers(std::int64_t before);
   std::uint8_t input_byte() const;
   void refuse_after_stop(bool toward);
+  bool feeds_toward_input(Bytes command) const;   // feedforward in the inhibited direction
   bool is_inhibited(std::int64_t command) const;  // its sign is that direction
   int inhibited_direction() const;                // 1 POT, -1 NOT, 0 neither or both
 

@@ -116,6 +116,17 @@ void A5nDrive::process_main(Bytes command, int cyclic) {
   }
 }
 
+// 7-7-3: velocity feedforward acts in CP, torque feedforward in CP, PP and CV.
+bool A5nDrive::feeds_toward_input(Bytes command) const {
+  const auto toward = [&](unsigned number, Slot word) {
+    const int choice = parameter(7, number);
+    const bool acts = choice == 1 ? mode_ == kCp : choice == 2 && (mode_ == kCp || mode_ == kPp || mode_ == kCv);
+    return acts && is_inhibited(get(word, command));
+  };
+  if (!takes_setting(main_.code, main_.type) && toward(35, command::kData3)) return true;
+  return command.size() >= 32 && (toward(36, command::kSubData2) || toward(37, command::kSubData3));
+}
+
 void A5nDrive::process_sub(Bytes command) {
   DriveChannel& channel = sub_;
   const int code = static_cast<int>(get(command::kSubCode, command));
