@@ -100,7 +100,7 @@ std::string field_word(const Field& field, std::int64_t raw, Bytes under) {
     std::string label(short_label(field.label));
     // Two meanings of one bit are one word.
     for (std::size_t slash = label.find(" / "); slash != std::string::npos; slash = label.find(" / "))
-      label.replace(slash, 3, "/");
+      label.erase(slash + 2, 1).erase(slash, 1);
     if (name == nullptr) return label;
     // "servo on" says what "Enable" is about, "successful" not what "PRM_STS" is.
     return is_abbreviation(label) ? fmt::format("{} {}", label, name->name) : std::string(name->name);
