@@ -64,29 +64,58 @@ constexpr Dispatch kDispatch = make_dispatch(true);
 constexpr Dispatch kUnsteady = make_dispatch(false);  // what a quiet block is judged by
 static_assert(kRules.size() < 256);
 
+// Who may have episodes, by scope.
+using Owners = std::array<OwnerId, 3>;
+
+// One check, with all that is known of its row when the program is compiled. `done`: the events judged before.
+template <const Dispatch& table, std::size_t place>
+[[gnu::always_inline]] inline void run_entry(Scene& scene, const Owners& owners, Events done) {
+  constexpr Entry kEntry = table.entries[place];
+  if constexpr (kEntry.earlier != kNoEvent) {
+    if ((kEntry.earlier & done) != 0) return;  // it ran for an earlier event of this block
+  }
+  if constexpr (kEntry.needs_every_cycle) {
+    if (scene.ring.sampled) return;
+  }
+  const OwnerId owner = owners[static_cast<std::size_t>(kEntry.scope)];
+  scene.rule = kEntry.rule;
+  scene.owner = owner;
+  const Outcome outcome = kEntry.check(scene);
+  if (outcome == Outcome::kSilent) return;
+  Findings& findings = scene.ring.findings;
+  findings.checked(kEntry.rule);
+  if (outcome != Outcome::kPassed) return;
+  findings.calm(owner, kEntry.rule);
+  if (scene.passed != nullptr) scene.passed->push_back(kEntry.row);
+}
+
+// The entries of an event and level, one behind the other.
+template <const Dispatch& table, std::size_t list>
+void run_list(Scene& scene, const Owners& owners, Events done) {
+  constexpr std::size_t kFirst = table.first[list];
+  [&]<std::size_t... offset>(std::index_sequence<offset...>) {
+    (run_entry<table, kFirst + offset>(scene, owners, done), ...);
+  }
+  (std::make_index_sequence<table.first[list + 1] - kFirst>{});
+}
+
+template <const Dispatch& table>
+constexpr auto kLists = []<std::size_t... list>(std::index_sequence<list...>) {
+  return std::array{&run_list<table, list>...};
+}
+(std::make_index_sequence<kEventCount * kLevels>{});
+
 // The entries of `table` at these events.
-void run_rows(const Dispatch& table, Scene& scene, Events events) {
-  Ring& ring = scene.ring;
+template <const Dispatch& table>
+void run_rows(Scene& scene, Events events) {
+  const OwnerId ring = scene.ring.owner;
   const Level level = scene.node == nullptr ? Level::kRing : scene.channel == nullptr ? Level::kNode : Level::kChannel;
-  const OwnerId owners[] = {ring.owner, scene.node == nullptr ? ring.owner : scene.node->owner,
-                            scene.channel == nullptr ? ring.owner : scene.channel->owner};
+  const Owners owners = {ring, scene.node == nullptr ? ring : scene.node->owner,
+                         scene.channel == nullptr ? ring : scene.channel->owner};
   Events done = 0;
   for (Events rest = events & table.events; rest != 0; rest &= rest - 1U) {
     const auto event = static_cast<unsigned>(std::countr_zero(rest));
-    const std::size_t list = event * kLevels + static_cast<std::size_t>(level);
-    const Entry* const end = table.entries.data() + table.first[list + 1];
-    for (const Entry* entry = table.entries.data() + table.first[list]; entry != end; ++entry) {
-      if ((entry->earlier & done) != 0) continue;  // it ran for an earlier event of this block
-      if (entry->needs_every_cycle && ring.sampled) continue;
-      scene.rule = entry->rule;
-      scene.owner = owners[static_cast<std::size_t>(entry->scope)];
-      const Outcome outcome = entry->check(scene);
-      if (outcome == Outcome::kSilent) continue;
-      ring.findings.checked(entry->rule);
-      if (outcome != Outcome::kPassed) continue;
-      ring.findings.calm(scene.owner, entry->rule);
-      if (scene.passed != nullptr) scene.passed->push_back(entry->row);
-    }
+    kLists<table>[event * kLevels + static_cast<std::size_t>(level)](scene, owners, done);
     done |= 1U << event;
   }
 }
@@ -107,7 +136,7 @@ RecordHeader read_header(Bytes record) {
   return header;
 }
 
-void Engine::run(Scene& scene, Events events) { run_rows(kDispatch, scene, events); }
+void Engine::run(Scene& scene, Events events) { run_rows<kDispatch>(scene, events); }
 
 // Where some rule has to see every block, its node has to be looked at.
 bool Engine::can_rest() {
@@ -122,11 +151,11 @@ void Engine::judge_unsteady(const Context& context, Node& node, std::uint32_t bl
   scene.node = &node;
   scene.block_at = block_at;
   node.quiet.raised = false;
-  run_rows(kUnsteady, scene, events & ~kAnswer);
+  run_rows<kUnsteady>(scene, events & ~kAnswer);
   for (ChannelState& channel : node.channels) {
     if (channel.id == Channel::kSub && !node.wide) continue;
     scene.channel = &channel;
-    run_rows(kUnsteady, scene, events & (kActiveCommand | kAnswer));
+    run_rows<kUnsteady>(scene, events & (kActiveCommand | kAnswer));
   }
   if (node.quiet.raised) wake(node);
 }
@@ -137,12 +166,12 @@ void Engine::judge_command_record(const Context& context) {
   ring_.record_raised = false;
   if (ring_.awake == 0 && ring_.record_quiet) {
     for (const std::uint8_t row : ring_.record_passed) ring_.findings.checked(id_of(row));
-    run_rows(kUnsteady, scene, kCommandRecord);
+    run_rows<kUnsteady>(scene, kCommandRecord);
     return;
   }
   ring_.record_passed.clear();
   scene.passed = &ring_.record_passed;
-  run_rows(kDispatch, scene, kCommandRecord);
+  run_rows<kDispatch>(scene, kCommandRecord);
   ring_.record_quiet = ring_.awake == 0 && !ring_.record_raised;
 }
 
