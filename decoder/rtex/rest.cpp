@@ -2,6 +2,7 @@
 #include "decoder/rtex/rest.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "decoder/pipeline/rules.hpp"
 #include "decoder/rtex/engine.hpp"
@@ -66,6 +67,7 @@ bool Engine::glances(const Context& context, const RecordPlace& place) {
     ++ring_.cycle;
     ring_.cycle_has_response = false;
     ring_.cycle_times.add(interval);
+    ring_.cycle_deviations.add(std::abs(interval - ring_.cycle_ns.value));
     ring_.last_command = {frame.number, frame.time_ns, ring_.cycle};
     ++rest_.glanced_commands;
   }

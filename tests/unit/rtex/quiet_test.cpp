@@ -6,62 +6,16 @@
 #include <functional>
 #include <random>
 
-#include "decoder/findings/catalogue.hpp"
 #include "decoder/link/rtex_record.hpp"
-#include "decoder/pipeline/pipeline.hpp"
 #include "decoder/rtex/layouts.hpp"
 #include "tests/support/scenarios.hpp"
+#include "tests/support/short_cut.hpp"
 #include "tests/support/traffic.hpp"
 
 namespace servotrace::test {
 namespace {
 
 using Frames = std::vector<simulator::SimulatedFrame>;
-
-Pipeline judge(const simulator::Simulation& simulation, Settings settings, bool every_block) {
-  settings.judge_every_block = every_block;
-  Pipeline pipeline(settings);
-  std::uint64_t number = 0;
-  for (const simulator::SimulatedFrame& frame : simulation.frames) {
-    pipeline.push({.number = ++number,
-                   .time_ns = frame.time_ns,
-                   .link_type = simulation.interfaces[frame.interface_id].link_type,
-                   .interface_id = frame.interface_id,
-                   .bytes = frame.bytes,
-                   .original_length = frame.original_length});
-  }
-  pipeline.finish();
-  return pipeline;
-}
-
-std::string text(const Finding& finding) {
-  std::string result =
-      std::string(rule_row(finding.rule).id) + " frame " + std::to_string(finding.frame) + ".." +
-      std::to_string(finding.last_frame) + " x" + std::to_string(finding.count) + " severity " +
-      std::to_string(static_cast<int>(finding.severity)) + " place " + std::to_string(finding.node.place) + " mac " +
-      std::to_string(finding.node.mac_id) + " channel " + std::to_string(static_cast<int>(finding.node.channel)) +
-      " bytes " + std::to_string(finding.where.offset) + "+" + std::to_string(finding.where.length) + " basis " +
-      std::to_string(static_cast<int>(finding.basis.kind)) + "@" + std::to_string(finding.basis.frame) + " cause " +
-      std::to_string(finding.cause.frame) + " related";
-  for (const std::uint64_t related : finding.related) result += " " + std::to_string(related);
-  result += " arguments";
-  for (const std::int64_t argument : finding.arguments) result += " " + std::to_string(argument);
-  return result;
-}
-
-void expect_same(const simulator::Simulation& simulation, const Settings& settings = {}) {
-  const Pipeline full = judge(simulation, settings, true);
-  const Pipeline quick = judge(simulation, settings, false);
-  const std::span<const Finding> expected = full.findings().all();
-  const std::span<const Finding> found = quick.findings().all();
-  ASSERT_EQ(found.size(), expected.size());
-  for (std::size_t i = 0; i < found.size(); ++i) EXPECT_EQ(text(found[i]), text(expected[i]));
-  for (std::size_t i = 0; i < kRuleCount; ++i) {
-    const auto rule = static_cast<RuleId>(i);
-    EXPECT_EQ(quick.findings().times_checked(rule), full.findings().times_checked(rule)) << rule_row(rule).id;
-    EXPECT_EQ(quick.findings().total(rule), full.findings().total(rule)) << rule_row(rule).id;
-  }
-}
 
 TEST(QuietBlocks, EveryScenarioSaysTheSame) {
   for (const std::filesystem::path& path : scenario_files()) {
