@@ -104,9 +104,11 @@ void Bus::make_session(Node& node, const DriveProfile& profile, Recognised how, 
   node.session = profile.make_session(settings_, node.ref, node.owner, how == Recognised::kGuessed);
   if (node.session) sessions_.push_back(&node);
   starts_untold_ = true;
+  plain_until_ns_ = INT64_MIN;
 }
 
 void Bus::gap() {
+  plain_until_ns_ = INT64_MIN;
   gap_pending_ = true;
   gap_seen_ = true;
   evidence_.gap();
@@ -152,7 +154,41 @@ void Bus::gap() {
   for (PendingOpen& open : opens_) open.used = false;
 }
 
+// Of what most frames are, a poll command or response of a known node before any deadline, only the connection is
+// looked at. Any other frame is taken as push() takes it.
+void Bus::push_plain(const Context& context, const can::Frame& frame) {
+  const Identifier id = identify(frame.identifier);
+  const bool command = id.kind() == MessageKind::kPollCommand;
+  if (!command && id.kind() != MessageKind::kPollResponse) {
+    push(context, frame);
+    return;
+  }
+  Node* const node = nodes_[static_cast<std::size_t>(id.mac_id)].get();
+  const TimeNs now = context.frame.time_ns;
+  if (node == nullptr || now >= plain_until_ns_) {
+    push(context, frame);
+    return;
+  }
+  last_ns_ = now;
+  bits_ += 47 + frame.data.size() * 8;
+  served_ = nullptr;
+  const Arrival arrival{context, frame, id};
+  if (!command) transmitted(arrival, *node);
+  push_poll(arrival, *node, command);
+  findings_.checked(rule("DN101"));
+  findings_.checked(rule("DN104"));
+  for (Node* entry : sessions_) {
+    if (entry->session.get() != served_ && entry->session->waits()) entry->session->on_time(context);
+  }
+}
+
 void Bus::push(const Context& context, const can::Frame& frame) {
+  push_any(context, frame);
+  const bool plain = devicenet_ && !gap_pending_ && !starts_untold_ && dynamic_.empty() && !settings_.judge_every_block;
+  plain_until_ns_ = plain ? next_deadline_ns_ : INT64_MIN;
+}
+
+void Bus::push_any(const Context& context, const can::Frame& frame) {
   const TimeNs now = context.frame.time_ns;
   if (!begun_) begin_ns_ = now;
   if (!begun_ || gap_pending_) known_since_ns_ = now;

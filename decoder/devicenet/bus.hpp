@@ -52,6 +52,8 @@ class Bus {
   Bus(const Settings& settings, const BusRef& ref, Findings& findings);
 
   void push(const Context& context, const can::Frame& frame);
+  // The same for a data frame of 11 bits that nobody looks at.
+  void push_plain(const Context& context, const can::Frame& frame);
   void assume();
   bool is_devicenet() const { return devicenet_; }
   void gap();
@@ -60,6 +62,7 @@ class Bus {
 
  private:
   // bus.cpp
+  void push_any(const Context& context, const can::Frame& frame);
   void push_data(const Arrival& arrival);
   void push_predefined(const Arrival& arrival, Node* entry);
   void push_error(const Context& context, const can::Frame& frame);
@@ -74,6 +77,7 @@ class Bus {
   void check_deadlines(const Context& context);
   void note_deadline(TimeNs deadline_ns) {
     if (deadline_ns < next_deadline_ns_) next_deadline_ns_ = deadline_ns;
+    if (deadline_ns < plain_until_ns_) plain_until_ns_ = deadline_ns;
   }
   void note_transfer(const Transfer& transfer);
   bool raise(const Context& context, const Report& report);
@@ -111,6 +115,7 @@ class Bus {
   Size io_size(const Node& node, bool command) const;
   void push_poll(const Arrival& arrival, Node& node, bool command);
   void push_fragmented_poll(const Arrival& arrival, Node& node, bool command);
+  inline bool push_next_fragment(const Arrival& arrival, Node& node, bool command);
   void push_ambiguous_poll(const Arrival& arrival, Node& node, bool command);
   void guess(const Arrival& arrival, Node& node, bool command, const Transfer& transfer);
   void forget_guess(Node& node);
@@ -194,7 +199,8 @@ class Bus {
   bool error_seen_ = false;
   TimeNs error_ns_ = 0;
   TimeNs next_deadline_ns_ = INT64_MAX;
-  std::uint64_t bits_ = 0;  // of all frames, stuff bits not counted
+  TimeNs plain_until_ns_ = INT64_MIN;  // until then nothing but the connection has to be looked at: push_plain()
+  std::uint64_t bits_ = 0;             // of all frames, stuff bits not counted
 
   std::array<std::unique_ptr<Node>, kMacIds> nodes_;
   std::vector<Node*> sessions_;     // nodes with a drive session

@@ -49,7 +49,7 @@ constexpr MessageRow kOthers[] = {
 
 constexpr std::size_t place(unsigned group, unsigned message_id) { return (group - 1U) * 64U + message_id; }
 
-// (group, message ID) to its row: one load a frame.
+// (group, message ID) to its row.
 constexpr auto kRows = [] {
   std::array<const MessageRow*, 4 * 64> rows{};
   for (unsigned group = 1; group <= 4; ++group) {
@@ -59,13 +59,9 @@ constexpr auto kRows = [] {
   return rows;
 }();
 
-}  // namespace
-
-std::span<const MessageRow> messages() { return kMessages; }
-
-Identifier identify(std::uint32_t can_identifier) {
+constexpr Identifier make_identifier(std::uint16_t value) {
   Identifier id;
-  id.value = static_cast<std::uint16_t>(can_identifier & 0x7FFU);
+  id.value = value;
   id.row = &kOthers[0];
   if (id.value < 0x400) {
     id.group = 1;
@@ -88,5 +84,19 @@ Identifier identify(std::uint32_t can_identifier) {
   id.row = kRows[place(id.group, id.message_id)];
   return id;
 }
+
+// Of every 11-bit identifier: taken apart by the compiler, one load a frame.
+constexpr auto kIdentifiers = [] {
+  std::array<Identifier, 0x800> all{};
+  for (std::size_t value = 0; value < all.size(); ++value)
+    all[value] = make_identifier(static_cast<std::uint16_t>(value));
+  return all;
+}();
+
+}  // namespace
+
+std::span<const MessageRow> messages() { return kMessages; }
+
+Identifier identify(std::uint32_t can_identifier) { return kIdentifiers[can_identifier & 0x7FFU]; }
 
 }  // namespace servotrace::devicenet

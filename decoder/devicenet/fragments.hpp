@@ -51,6 +51,32 @@ class Transfer {
   // wonder, for the capture (or what follows a gap) began just now.
   FragmentResult push(FragmentType type, std::uint8_t count, std::uint8_t key, Bytes payload, std::uint64_t frame,
                       TimeNs time_ns, bool mid_stream);
+  // The same for a fragment of an unacknowledged transfer that is the next one, of a message that begins where the one
+  // before has ended; most are. False, and nothing was done, for any other.
+  bool push_next(FragmentType type, std::uint8_t count, Bytes payload, std::uint64_t frame, TimeNs time_ns) {
+    if (acknowledged_ || payload.size() > kPayload) return false;
+    if (type == FragmentType::kFirst) {
+      if (count != 0 || state_ != State::kDone) return false;
+      state_ = State::kActive;
+      faulted_ = overflowed_ = awaiting_ack_ = false;
+      key_ = 0;
+      size_ = 0;
+      frames_.clear();
+      first_frame_ = frame;
+      first_time_ns_ = time_ns;
+    } else {
+      if (!continues(type, count) || faulted_ || overflowed_ || size_ + kPayload > kCapacity) return false;
+      if (type == FragmentType::kLast) state_ = State::kDone;
+    }
+    count_ = count;
+    type_ = type;
+    for (std::size_t i = 0; i < payload.size(); ++i) buffer_[size_ + i] = payload[i];
+    size_ += payload.size();
+    frames_.push_back(frame);
+    last_frame_ = frame;
+    last_time_ns_ = time_ns;
+    return true;
+  }
   // An acknowledgement of this transfer's fragments.
   FragmentResult acknowledge(std::uint8_t count, std::uint8_t status, std::uint8_t key);
   // What time alone shows. Limits in nanoseconds.
@@ -65,6 +91,8 @@ class Transfer {
 
   // True where (type, count) continues the message under way.
   bool continues(FragmentType type, std::uint8_t count) const;
+  // All of the message is in.
+  bool complete() const { return state_ == State::kDone && !overflowed_; }
   bool active() const { return state_ == State::kActive; }
   bool idle() const { return state_ == State::kUnknown || state_ == State::kIdle || state_ == State::kDone; }
   // The bytes so far. Valid until the next call of a member that changes the transfer.
@@ -78,6 +106,7 @@ class Transfer {
   bool overflowed() const { return overflowed_; }
 
   static constexpr std::size_t kCapacity = 1024;
+  static constexpr std::size_t kPayload = 7;  // bytes of an I/O fragment
 
  private:
   enum class State : std::uint8_t { kUnknown, kIdle, kActive, kDone, kBroken };

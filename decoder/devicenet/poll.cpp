@@ -41,13 +41,46 @@ Bus::Size Bus::io_size(const Node& node, bool command) const {
 
 void Bus::step(Node& node, PollEvent event) { node.poll.state = kPollMachine.next(node.poll.state, event).to; }
 
+// The fragment that is due: nothing to find. False, and nothing was done, for any other.
+[[gnu::always_inline]] inline bool Bus::push_next_fragment(const Arrival& arrival, Node& node, bool command) {
+  Transfer& transfer = command ? node.poll.command : node.poll.response;
+  const Bytes data = arrival.can.data;
+  const auto type = static_cast<FragmentType>(read(slot(kFragment, "type"), data));
+  const auto count = static_cast<std::uint8_t>(read(slot(kFragment, "count"), data));
+  if (arrival.context.dissection != nullptr || settings_.judge_every_block ||
+      !transfer.push_next(type, count, data.subspan(1), arrival.number(), arrival.now_ns())) {
+    return false;
+  }
+  checked(rule("DN301"));
+  checked(rule("DN302"));
+  if (!transfer.complete()) {
+    note_deadline(after_ns(arrival.now_ns(), fragment_limit_ns()));
+    if (type != FragmentType::kFirst) return true;
+    if (command) {
+      poll_begins(arrival, node);
+    } else {
+      poll_answered(arrival, node);
+    }
+    return true;
+  }
+  findings_.calm(node.poll_owner, rule("DN301"));
+  findings_.calm(node.poll_owner, rule("DN302"));
+  deliver(arrival, node, command,
+          {.bytes = transfer.message(),
+           .buffer = Buffer::kReassembled,
+           .offset = 0,
+           .first_frame = transfer.first_frame(),
+           .in_frame = arrival.bytes(1, data.size() - 1)});
+  return true;
+}
+
 void Bus::push_poll(const Arrival& arrival, Node& node, bool command) {
   const Size size = io_size(node, command);
   const Bytes data = arrival.can.data;
   if (data.empty()) {
     derive(arrival.context.dissection, kIdleField, 1, node.ref);
   } else if (size.known && size.fragmented) {
-    push_fragmented_poll(arrival, node, command);
+    if (!push_next_fragment(arrival, node, command)) push_fragmented_poll(arrival, node, command);
     return;
   } else if (!size.known) {
     push_ambiguous_poll(arrival, node, command);

@@ -17,8 +17,10 @@ class BusSession {
   BusSession(const BusSession&) = delete;
   BusSession& operator=(const BusSession&) = delete;
 
-  // A whole CAN frame (error, remote and extended frames too).
-  void push(const Context& context, const can::Frame& frame);
+  // A whole CAN frame (error, remote and extended frames too). True where the bus is DeviceNet.
+  bool push(const Context& context, const can::Frame& frame);
+  // The same for a data frame of 11 bits that nobody looks at.
+  bool push_plain(const Context& context, const can::Frame& frame);
   // The bus is DeviceNet by configuration (settings say so too): needs no evidence.
   void assume();
   bool is_devicenet() const;

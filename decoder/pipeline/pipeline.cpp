@@ -5,6 +5,7 @@
 #include <map>
 #include <vector>
 
+#include "decoder/core/slot.hpp"
 #include "decoder/devicenet/session.hpp"
 #include "decoder/link/rtex_record.hpp"
 #include "decoder/link/socketcan.hpp"
@@ -17,6 +18,7 @@ namespace {
 // A hostile capture may name any number of interfaces and rings: what is beyond is counted as not tracked.
 constexpr std::size_t kMaxInterfaces = 1024;
 constexpr std::size_t kMaxBuses = 256;
+constexpr std::size_t kNoBus = SIZE_MAX;
 
 struct Interface {
   OwnerId owner{};  // findings of the capture, one owner an interface
@@ -52,6 +54,9 @@ struct Pipeline::Impl {
   std::uint64_t checked = 0;
   std::uint64_t untracked = 0;
   RawFrame last;  // without its bytes
+  // Where the last frame of link type 227 belonged: most frames are followed by one of the same bus.
+  std::size_t plain_bus = kNoBus;  // in buses
+  std::uint32_t plain_interface = 0;
 
   Interface* interface(std::uint32_t id) {
     if (id >= kMaxInterfaces) return nullptr;
@@ -179,15 +184,51 @@ struct Pipeline::Impl {
       if (entry->session->is_devicenet()) ++checked;
       return;
     }
+    if (frame.link_type == LinkType::kCanSocketcan && !settings.judge_every_block) {
+      plain_bus = static_cast<std::size_t>(entry - buses.data());
+      plain_interface = frame.interface_id;
+    }
     const Context context{frame, settings, findings, dissection};
-    entry->session->push(context, place.frame);
-    if (entry->session->is_devicenet()) {
+    if (entry->session->push(context, place.frame)) {
       ++checked;
       if (dissection != nullptr) dissection->protocol = Protocol::kDevicenet;
     } else if (dissection != nullptr) {
       dissection->clear();
       dissection->frame = frame.bytes;
     }
+  }
+
+  // A whole data frame, not looked at, of the bus of the one before: there is nothing to find in its record but a time
+  // that goes back. False, and nothing was done, for any other.
+  [[gnu::always_inline]] bool push_plain_can(const RawFrame& frame) {
+    constexpr std::size_t kHeader = 8;
+    constexpr std::uint32_t kLastIdentifier = 0x7FF;  // above: flags, or 29 bits
+    if (frame.interface_id != plain_interface || frame.link_type != LinkType::kCanSocketcan || plain_bus == kNoBus)
+      return false;
+    const std::size_t size = frame.bytes.size();
+    if (size < kHeader || frame.original_length > size || !frame.has_time) return false;
+    const std::uint32_t identifier = load_be(frame.bytes, 0, 4);
+    const std::size_t length = frame.bytes[4];
+    const std::uint8_t flags = frame.bytes[5];
+    Interface& interface = interfaces[frame.interface_id];
+    if (identifier > kLastIdentifier || length > 8 || size < kHeader + length || flags != 0 || !interface.has_time ||
+        frame.time_ns < interface.last_time_ns) {
+      return false;
+    }
+    CanBus& entry = buses[plain_bus];
+    const Context context{frame, settings, findings, nullptr};
+    findings.calm(interface.owner, rule("CP101"));
+    findings.calm(interface.owner, rule("CP102"));
+    findings.checked(rule("CP101"));
+    findings.checked(rule("CP102"));
+    interface.last_time_ns = frame.time_ns;
+    ++entry.frames;
+    if (entry.session->push_plain(context, {.identifier = identifier,
+                                            .data = frame.bytes.subspan(kHeader, length),
+                                            .data_offset = static_cast<std::uint32_t>(kHeader)})) {
+      ++checked;
+    }
+    return true;
   }
 
   // True for link types that may carry our protocols, even where a frame of them carries something else.
@@ -221,6 +262,7 @@ void Pipeline::push(const RawFrame& frame, Dissection* dissection) {
   ++self.frames;
   self.last = frame;
   self.last.bytes = {};
+  if (dissection == nullptr && self.push_plain_can(frame)) return;
   if (dissection != nullptr) {
     dissection->clear();
     dissection->frame = frame.bytes;

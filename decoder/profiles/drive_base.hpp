@@ -56,6 +56,12 @@ class DriveBase : public DriveSession {
       context.findings.calm(owner_, report.rule);
     }
   }
+  // `rule` had an opportunity and was not found.
+  void passed(const Context& context, RuleId rule) const {
+    if (decode_only_) return;
+    context.findings.checked(rule);
+    context.findings.calm(owner_, rule);
+  }
   void checked(const Context& context, RuleId rule) const {
     if (!decode_only_) context.findings.checked(rule);
   }

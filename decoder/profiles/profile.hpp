@@ -60,6 +60,8 @@ class DriveSession {
   virtual void on_explicit(const Context& context, const ExplicitExchange& exchange) = 0;
   // Any other frame of the same bus: deadlines may have passed. Cheap.
   virtual void on_time(const Context& context) = 0;
+  // False where on_time() would do nothing until the next message.
+  bool waits() const { return waits_; }
   // The node started (its own Duplicate MAC ID check, or a completed Reset): what it kept in RAM is gone.
   virtual void on_start(const Context& context) = 0;
   // Records were lost: nothing that was seen before may be compared with what follows.
@@ -68,6 +70,9 @@ class DriveSession {
   // True where the drive reported motion in its last response (DN206).
   virtual bool is_moving() const = 0;
   virtual void summarise(NodeSummary& summary, std::vector<Statistic>& statistics) const = 0;
+
+ protected:
+  bool waits_ = true;  // set by whatever may begin to wait, taken back by on_time()
 };
 
 struct DriveProfile {

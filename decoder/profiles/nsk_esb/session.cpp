@@ -6,8 +6,52 @@
 
 namespace servotrace::esb {
 
+// What is shown of both ends once both are seen.
+void Session::settle_handshake() {
+  if (handshake_ != Handshake::kUnknown || !input_ || !output_) return;
+  handshake_ = handshake_of(input_->prm_req, output_->prm_ack);
+  waits_ = true;
+}
+
+// The input before once more: nothing rises or falls. False, and nothing was done, where it is to be judged.
+bool Session::repeats_command(const Context& context, const Image& image) {
+  if (!input_ || image != input_image_ || input_->reserved || context.dissection != nullptr ||
+      context.settings.judge_every_block) {
+    return false;
+  }
+  expire(context);
+  passed(context, rule("NK308"));
+  input_->frame = context.frame.number;
+  input_->time_ns = context.frame.time_ns;
+  settle_handshake();
+  return true;
+}
+
+// The output before once more: no report is new. False, and nothing was done, where it is to be judged.
+bool Session::repeats_response(const Context& context, const Message& message, const Image& image) {
+  if (!output_ || image != output_image_ || !reported_.known || context.dissection != nullptr ||
+      context.settings.judge_every_block) {
+    return false;
+  }
+  transaction_.answered_once = true;
+  for (const RuleId id : {rule("NK901"), rule("NK902"), rule("NK903"), rule("NK904"), rule("NK905")}) {
+    checked(context, id);
+  }
+  output_->frame = context.frame.number;
+  output_->time_ns = context.frame.time_ns;
+  await_busy(context, message, *output_);
+  if (!output_->busy) runs_ = Runs::kUnknown;
+  expire(context);
+  settle_handshake();
+  return true;
+}
+
 void Session::on_command(const Context& context, const Message& message) {
   if (message.bytes.size() < kMessageSize) return;
+  const Image image = Image::of(message.bytes);
+  if (repeats_command(context, image)) return;
+  input_image_ = image;
+  waits_ = true;
   add(context, message, kInput, 0, Direction::kCommand, kMessageSize);
   const Input input = read_input(message.bytes, context.frame.number, context.frame.time_ns);
   if (input.prm_req && input.prm_ope) {
@@ -31,11 +75,15 @@ void Session::on_command(const Context& context, const Message& message) {
     }
   }
   input_ = input;
-  if (handshake_ == Handshake::kUnknown && output_) handshake_ = handshake_of(input.prm_req, output_->prm_ack);
+  settle_handshake();
 }
 
 void Session::on_response(const Context& context, const Message& message) {
   if (message.bytes.size() < kMessageSize) return;
+  const Image image = Image::of(message.bytes);
+  if (repeats_response(context, message, image)) return;
+  output_image_ = image;
+  waits_ = true;
   add(context, message, kOutput, 0, Direction::kResponse, kMessageSize);
   const Output output = read_output(message.bytes, context.frame.number, context.frame.time_ns);
   if (output.prm_ack && output.prm_sts) {
@@ -54,12 +102,16 @@ void Session::on_response(const Context& context, const Message& message) {
   if (rises) step_handshake(context, message, HandshakeEvent::kConfirmRises);
   if (falls) step_handshake(context, message, HandshakeEvent::kConfirmFalls);
   expire(context);
-  if (handshake_ == Handshake::kUnknown && input_) handshake_ = handshake_of(input_->prm_req, output.prm_ack);
+  settle_handshake();
 }
 
 void Session::on_explicit(const Context& context, const ExplicitExchange&) { expire(context); }
 
-void Session::on_time(const Context& context) { expire(context); }
+void Session::on_time(const Context& context) {
+  expire(context);
+  waits_ =
+      not_ready_.active || warning_.active || handshake_ == Handshake::kRequested || handshake_ == Handshake::kReleased;
+}
 
 void Session::on_start(const Context&) {
   on_gap();

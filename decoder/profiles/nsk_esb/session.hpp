@@ -98,6 +98,19 @@ class Session final : public DriveBase {
     bool hcmp = false;
   };
 
+  // The bytes of a message, for comparing it with the one before.
+  struct Image {
+    std::uint64_t head = 0;
+    std::uint32_t tail = 0;
+    bool operator==(const Image&) const = default;
+    // Precondition: kMessageSize bytes.
+    static Image of(Bytes bytes) { return {load_le64(bytes, 0), load_le(bytes, 8, 2)}; }
+  };
+  static_assert(kMessageSize == 10);
+  void settle_handshake();
+  bool repeats_command(const Context& context, const Image& image);
+  bool repeats_response(const Context& context, const Message& message, const Image& image);
+
   // judge_request.cpp
   void step_handshake(const Context& context, const Message& message, HandshakeEvent event);
   void begin_request(const Context& context, const Message& message, const Input& input);
@@ -135,8 +148,9 @@ class Session final : public DriveBase {
 
   static constexpr std::size_t kKnownNumbers = 300;  // parameters are 1 to 299
 
-  std::optional<Input> input_;    // the last one; empty at the start and after a gap
-  std::optional<Output> output_;  // likewise
+  std::optional<Input> input_;        // the last one; empty at the start and after a gap
+  std::optional<Output> output_;      // likewise
+  Image input_image_, output_image_;  // theirs
   Reported reported_;
   bool start_seen_ = false;
 

@@ -77,6 +77,7 @@ bool is_block_target(std::uint8_t command, std::int64_t class_id, std::int64_t i
 
 void Session::on_explicit(const Context& context, const ExplicitExchange& exchange) {
   expire(context);
+  waits_ = true;
   const bool sets = exchange.service == kSet || exchange.service == kSetAll;
   if (!exchange.is_response) {
     if (exchange.class_id == kIdentity && exchange.service == kReset) judge_pairs(context);

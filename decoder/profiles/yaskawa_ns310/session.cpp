@@ -7,8 +7,54 @@
 
 namespace servotrace::ns310 {
 
+// The command before once more, which nothing was found in and which starts nothing: its levels and codes are as good
+// as they were. False, and nothing was done, where it is to be judged.
+bool Session::repeats_command(const Context& context, std::uint64_t image) {
+  if (!command_ || image != command_image_ || !command_clean_ || command_->start_trajectory ||
+      context.dissection != nullptr || context.settings.judge_every_block) {
+    return false;
+  }
+  if (response_ && (response_->command_error || (rotation_ && response_->in_progress))) return false;
+  expire(context);
+  for (const RuleId id :
+       {rule("YS101"), rule("YS102"), rule("YS103"), rule("YS107"), rule("YS108"), rule("YS114"), rule("YS115")}) {
+    passed(context, id);
+  }
+  start_wait_.end();
+  edge_wait_.end();
+  continuous_wait_.end();
+  edge_found_ = continuous_found_ = false;
+  if (!command_->valid_data) valid_wait_.end();
+  command_->frame = context.frame.number;
+  command_->time_ns = context.frame.time_ns;
+  return true;
+}
+
+// The response before once more: no report is new. False, and nothing was done, where it is to be judged.
+bool Session::repeats_response(const Context& context, const Message& message, std::uint64_t image) {
+  if (!response_ || image != response_image_ || !reported_.known || pending_alarm_.active ||
+      context.dissection != nullptr || context.settings.judge_every_block) {
+    return false;
+  }
+  response_->frame = context.frame.number;
+  response_->time_ns = context.frame.time_ns;
+  track_operation(*response_);
+  judge_echoes(context, message, *response_);
+  judge_home_travel(context, message, *response_);
+  for (const RuleId id : {rule("YS901"), rule("YS902"), rule("YS903"), rule("YS904"), rule("YS905")}) {
+    checked(context, id);
+  }
+  if (!response_->command_error) refusable_since_ = command_ ? command_->frame : response_->frame;
+  expire(context);
+  return true;
+}
+
 void Session::on_command(const Context& context, const Message& message) {
   if (message.bytes.size() < kMessageSize) return;
+  const std::uint64_t image = load_le64(message.bytes, 0);
+  if (repeats_command(context, image)) return;
+  command_image_ = image;
+  waits_ = true;
   add(context, message, kCommand, 0, Direction::kCommand);
   const Command command = read_command(message.bytes, context.frame.number, context.frame.time_ns);
   add(context, message, command_data(command.code), kDataOffset, Direction::kCommand);
@@ -28,6 +74,10 @@ void Session::on_command(const Context& context, const Message& message) {
 
 void Session::on_response(const Context& context, const Message& message) {
   if (message.bytes.size() < kMessageSize) return;
+  const std::uint64_t image = load_le64(message.bytes, 0);
+  if (repeats_response(context, message, image)) return;
+  response_image_ = image;
+  waits_ = true;
   add(context, message, kResponse, 0, Direction::kResponse);
   const Response response = read_response(message.bytes, context.frame.number, context.frame.time_ns);
   add(context, message, response_data(response.code), kDataOffset, Direction::kResponse);
@@ -49,7 +99,10 @@ void Session::show_alarm(const Context& context, std::int64_t code) const {
   add(context, kAlarmRemediesText, "ns310", 0, alarm->remedies);
 }
 
-void Session::on_time(const Context& context) { expire(context); }
+void Session::on_time(const Context& context) {
+  expire(context);
+  waits_ = pending_alarm_.active || pending_block_fault_.active || settle_pending_;
+}
 
 void Session::on_start(const Context&) {
   on_gap();

@@ -65,6 +65,8 @@ class Session final : public DriveBase {
   };
 
   void show_alarm(const Context& context, std::int64_t code) const;
+  bool repeats_command(const Context& context, std::uint64_t image);
+  bool repeats_response(const Context& context, const Message& message, std::uint64_t image);
 
   // judge_command.cpp
   void judge_data(const Context& context, const Message& message, const Command& command);
@@ -110,7 +112,9 @@ class Session final : public DriveBase {
 
   std::optional<Command> command_;    // the last one; empty at the start and after a gap
   std::optional<Response> response_;  // likewise
-  bool command_clean_ = true;         // no finding on the command at hand
+  std::uint64_t command_image_ = 0;   // their bytes
+  std::uint64_t response_image_ = 0;
+  bool command_clean_ = true;  // no finding on the command at hand
   Reported reported_;
   PendingReport pending_alarm_;
   PendingReport pending_block_fault_;
