@@ -22,7 +22,8 @@ class MappedFile {
   ~MappedFile();
 
   // For a reader that goes forward: asks for the bytes from `from` to `to` at once, and lets go of the memory of those
-  // before `passed`. They may still be read: they come from the file again. All are offsets in bytes.
+  // before `passed`. They may still be read: they come from the file again. All are offsets in bytes. Of a long file a
+  // thread of its own asks for as many behind `to`, while those before are looked at.
   void advance(std::size_t passed, std::size_t from, std::size_t to);
 
   Bytes bytes() const { return {static_cast<const std::uint8_t*>(address_), length_}; }
@@ -30,12 +31,21 @@ class MappedFile {
   const volatile std::sig_atomic_t* lost() const { return lost_; }
 
  private:
+  struct Ahead;
+  // What to let go of, and what to ask for: offsets in bytes.
+  struct Task {
+    std::size_t release_from = 0, release_to = 0;
+    std::size_t wanted_from = 0, wanted_to = 0;
+  };
   MappedFile(void* address, std::size_t length, std::size_t slot);
+  void run(const Task& task) const;
+
   void* address_;
   std::size_t length_;
   std::size_t slot_;
   std::size_t released_ = 0;  // bytes let go of
   const volatile std::sig_atomic_t* lost_;
+  std::unique_ptr<Ahead> ahead_;  // of a long file, from its second window on
 };
 
 }  // namespace servotrace::replay
