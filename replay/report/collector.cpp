@@ -41,6 +41,15 @@ std::uint64_t key_of(const NodeRef& node) {
          std::uint64_t{node.bus.number} << 16U | (static_cast<std::uint64_t>(node.mac_id) & 0xFFU) << 8U;
 }
 
+// The bytes of a message of up to eight; of a longer one nothing.
+std::uint64_t image_of(Bytes bytes) {
+  std::uint64_t image = 0;
+  if (bytes.size() == 4) return load_le(bytes, 0, 4);
+  if (bytes.size() > sizeof image) return 0;
+  for (std::size_t i = 0; i < bytes.size(); ++i) image |= std::uint64_t{bytes[i]} << (8U * i);
+  return image;
+}
+
 std::string text_of(const Field& field, std::int64_t raw, Bytes under) {
   return field.kind == Kind::kBytes || field.kind == Kind::kText ? bytes_text(field, under) : value_text(field, raw);
 }
@@ -75,8 +84,13 @@ Collector::Collector(const Settings& settings, const std::vector<Watch>& watches
 
 std::size_t Collector::node_index(const NodeRef& node) {
   const std::uint64_t key = key_of(node);
+  if (key == last_key_ && last_node_) return *last_node_;
   const auto found = node_by_key_.find(key);
-  if (found != node_by_key_.end()) return found->second;
+  if (found != node_by_key_.end()) {
+    last_key_ = key;
+    last_node_ = found->second;
+    return found->second;
+  }
   if (nodes_.size() >= kMaxNodes) return kMaxNodes;
   nodes_.emplace_back();
   nodes_.back().node = node;
@@ -86,9 +100,13 @@ std::size_t Collector::node_index(const NodeRef& node) {
 }
 
 // What is kept of a layout at a node; made at its first message.
-const Collector::Place& Collector::place_of(Node& node, const RawFrame& frame, const Layout& layout, Bytes bytes) {
-  for (const Place& place : node.places) {
-    if (place.layout == &layout) return place;
+Collector::Place& Collector::place_of(Node& node, const RawFrame& frame, const Layout& layout, Bytes bytes) {
+  const std::size_t count = node.places.size();
+  for (std::size_t i = 0, at = node.next_place; i < count; ++i, ++at) {
+    if (at >= count) at = 0;
+    if (node.places[at].layout != &layout) continue;
+    node.next_place = at + 1;
+    return node.places[at];
   }
   Place& place = node.places.emplace_back();
   place.layout = &layout;
@@ -121,15 +139,21 @@ const Collector::Place& Collector::place_of(Node& node, const RawFrame& frame, c
 }
 
 void Collector::add_segment(Node& node, std::size_t index, const RawFrame& frame, const Segment& segment, Bytes bytes) {
-  const Place& place = place_of(node, frame, *segment.layout, bytes);
-  for (const Kept& kept : place.fields) {
-    const std::int64_t value = read(kept.slot, bytes);
+  Place& place = place_of(node, frame, *segment.layout, bytes);
+  const std::uint64_t image = image_of(bytes);
+  const bool same =
+      place.size != 0 && place.size == bytes.size() && place.image == image && place.changes == node.changes;
+  for (Kept& kept : place.fields) {
+    if (same && kept.is_state) continue;
+    if (!same) kept.value = read(kept.slot, bytes);
+    const std::int64_t value = kept.value;
     if (!kept.is_state) {
       add_signal(node, index, frame, *segment.layout, kept, value);
       continue;
     }
     StateTrack& track = tracks_[kept.index];
     if (track.value == value) continue;
+    ++node.changes;
     track.add({.time_ns = frame.time_ns,
                .frame = frame.number,
                .node = node.node,
@@ -139,6 +163,9 @@ void Collector::add_segment(Node& node, std::size_t index, const RawFrame& frame
                .after = value,
                .close_up = !open_.empty()});
   }
+  place.image = image;
+  place.size = bytes.size() <= sizeof image ? bytes.size() : 0;
+  place.changes = node.changes;
 }
 
 void Collector::add_signal(Node& node, std::size_t index, const RawFrame& frame, const Layout& layout, const Kept& kept,

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -55,16 +56,24 @@ class Collector {
     Slot slot;
     std::size_t index = 0;  // into tracks_ or signals_
     bool is_state = false;
+    std::int64_t value = 0;  // read last
   };
   struct Place {
     const Layout* layout = nullptr;
     std::vector<Kept> fields;
+    // The bytes read last, of a short message, and the changes of the node until then: the same bytes again change
+    // nothing where nothing else has changed.
+    std::uint64_t image = 0;
+    std::size_t size = 0;  // of `image`; 0: none
+    std::uint64_t changes = 0;
   };
   struct Node {
     NodeRef node;
     std::map<const Field*, std::size_t> tracks;
     std::map<const Field*, std::size_t> signals;
-    std::vector<Place> places;  // by layout, in the order of their first message
+    std::vector<Place> places;   // by layout, in the order of their first message
+    std::size_t next_place = 0;  // likely the next one: messages come in turn
+    std::uint64_t changes = 0;   // of its tracks
     // The command position last sent, for its distance from the actual one.
     std::int64_t commanded = 0;
     TimeNs commanded_ns = 0;
@@ -98,7 +107,7 @@ class Collector {
   };
 
   std::size_t node_index(const NodeRef& node);
-  const Place& place_of(Node& node, const RawFrame& frame, const Layout& layout, Bytes bytes);
+  Place& place_of(Node& node, const RawFrame& frame, const Layout& layout, Bytes bytes);
   void add_segment(Node& node, std::size_t index, const RawFrame& frame, const Segment& segment, Bytes bytes);
   void add_signal(Node& node, std::size_t index, const RawFrame& frame, const Layout& layout, const Kept& kept,
                   std::int64_t value);
@@ -117,6 +126,8 @@ class Collector {
   const Settings& settings_;
   std::deque<Node> nodes_;  // stays where it is: `last` points into it
   std::unordered_map<std::uint64_t, std::size_t> node_by_key_;
+  std::uint64_t last_key_ = 0;  // of the node asked for last; the messages of a node stand together
+  std::optional<std::size_t> last_node_;
   std::vector<StateTrack> tracks_;
   std::vector<Signal> signals_;
   std::vector<CloseUp> close_ups_;
