@@ -173,6 +173,7 @@ void Bus::push_plain(const Context& context, const can::Frame& frame) {
   bits_ += 47 + frame.data.size() * 8;
   served_ = nullptr;
   const Arrival arrival{context, frame, id};
+  node->last_frames[place_of(id)] = {context.frame.number, now};
   if (!command) transmitted(arrival, *node);
   push_poll(arrival, *node, command);
   findings_.checked(rule("DN101"));
@@ -332,6 +333,46 @@ void Bus::show_plain(const Arrival& arrival, const Node& node, const Layout& lay
   show(*arrival.context.dissection, base, layout, 0, arrival.can.data.size());
 }
 
+// A message of the node whose place in the predefined set its identifier names. False where it is none.
+bool Bus::push_of_node(const Arrival& arrival, Node& node) {
+  const Bytes data = arrival.can.data;
+  switch (arrival.id.kind()) {
+    case MessageKind::kPollCommand:
+      push_poll(arrival, node, true);
+      return true;
+    case MessageKind::kPollResponse:
+      push_poll(arrival, node, false);
+      return true;
+    case MessageKind::kExplicitRequest:
+    case MessageKind::kUnconnectedRequest:
+      push_explicit(arrival, node, node.channel, true);
+      return true;
+    case MessageKind::kExplicitResponse:
+      push_explicit(arrival, node, node.channel, false);
+      return true;
+    case MessageKind::kGroup1:
+    case MessageKind::kGroup3:
+    case MessageKind::kChangeOfStateAck:
+      show_plain(arrival, node, kIoData);
+      return true;
+    case MessageKind::kChangeOfState:
+      push_io(arrival, node, node.change_of_state_data, kChangeOfStateTransfer);
+      return true;
+    case MessageKind::kMulticastPollResponse:
+      push_io(arrival, node, node.multicast_response, kMulticastTransfer);
+      return true;
+    case MessageKind::kBitStrobeResponse:  // never above 8 bytes
+      if (data.empty()) derive(arrival.context.dissection, kIdleField, 1, node.ref);
+      show_plain(arrival, node, kIoData);
+      return true;
+    case MessageKind::kBitStrobeCommand:
+      show_plain(arrival, node, fits(kBitStrobe, data) && data.size() == kBitStrobe.size ? kBitStrobe : kIoData);
+      return true;
+    default:
+      return false;
+  }
+}
+
 void Bus::push_data(const Arrival& arrival) {
   const Identifier& id = arrival.id;
   DynamicConnection* const open = opened_on(id);
@@ -367,50 +408,15 @@ void Bus::push_predefined(const Arrival& arrival, Node* entry) {
   if (entry != nullptr && id.source() >= 0 && kind != MessageKind::kMacCheck) transmitted(arrival, *entry);
   Dissection* const dissection = arrival.context.dissection;
   const Bytes data = arrival.can.data;
-  switch (kind) {
-    case MessageKind::kPollCommand:
-      push_poll(arrival, *entry, true);
-      return;
-    case MessageKind::kPollResponse:
-      push_poll(arrival, *entry, false);
-      return;
-    case MessageKind::kExplicitRequest:
-    case MessageKind::kUnconnectedRequest:
-      push_explicit(arrival, *entry, entry->channel, true);
-      return;
-    case MessageKind::kExplicitResponse:
-      push_explicit(arrival, *entry, entry->channel, false);
-      return;
-    case MessageKind::kMacCheck:
-      push_mac_check(arrival);
-      return;
-    case MessageKind::kUcmmRequest:
-    case MessageKind::kUcmmResponse:
-      push_unconnected(arrival, kind == MessageKind::kUcmmRequest);
-      return;
-    case MessageKind::kGroup1:
-    case MessageKind::kGroup3:
-      show_plain(arrival, *entry, kIoData);
-      return;
-    case MessageKind::kChangeOfState:
-      push_io(arrival, *entry, entry->change_of_state_data, kChangeOfStateTransfer);
-      return;
-    case MessageKind::kMulticastPollResponse:
-      push_io(arrival, *entry, entry->multicast_response, kMulticastTransfer);
-      return;
-    case MessageKind::kBitStrobeResponse:  // never above 8 bytes
-      if (data.empty()) derive(dissection, kIdleField, 1, entry->ref);
-      show_plain(arrival, *entry, kIoData);
-      return;
-    case MessageKind::kChangeOfStateAck:
-      show_plain(arrival, *entry, kIoData);
-      return;
-    case MessageKind::kBitStrobeCommand:
-      show_plain(arrival, *entry, fits(kBitStrobe, data) && data.size() == kBitStrobe.size ? kBitStrobe : kIoData);
-      return;
-    default:
-      break;
+  if (kind == MessageKind::kMacCheck) {
+    push_mac_check(arrival);
+    return;
   }
+  if (kind == MessageKind::kUcmmRequest || kind == MessageKind::kUcmmResponse) {
+    push_unconnected(arrival, kind == MessageKind::kUcmmRequest);
+    return;
+  }
+  if (entry != nullptr && push_of_node(arrival, *entry)) return;
   if (dissection == nullptr) return;
   const Segment base{.offset = arrival.can.data_offset,
                      .node = {.bus = ref_, .protocol = Protocol::kDevicenet},

@@ -65,6 +65,7 @@ class Bus {
   void push_any(const Context& context, const can::Frame& frame);
   void push_data(const Arrival& arrival);
   void push_predefined(const Arrival& arrival, Node* entry);
+  bool push_of_node(const Arrival& arrival, Node& node);
   void push_error(const Context& context, const can::Frame& frame);
   void invalid(const Context& context, const can::Frame& frame, std::int64_t kind);
   void show_identifier(const Arrival& arrival, const Node* node) const;

@@ -3,6 +3,7 @@
 // fragments of one direction of one connection.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -70,7 +71,12 @@ class Transfer {
     }
     count_ = count;
     type_ = type;
-    for (std::size_t i = 0; i < payload.size(); ++i) buffer_[size_ + i] = payload[i];
+    std::uint8_t* const to = buffer_.data() + size_;
+    if (payload.size() == kPayload) {
+      std::copy_n(payload.data(), kPayload, to);  // of a size the compiler knows
+    } else {
+      std::copy_n(payload.data(), payload.size(), to);
+    }
     size_ += payload.size();
     frames_.push_back(frame);
     last_frame_ = frame;
