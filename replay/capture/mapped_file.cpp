@@ -138,16 +138,20 @@ struct MappedFile::Ahead {
 };
 
 void MappedFile::run(const Task& task) const {
-  const auto at = [this](std::size_t offset) { return static_cast<char*>(address_) + offset; };
-  if (task.release_to > task.release_from)
-    ::madvise(at(task.release_from), task.release_to - task.release_from, MADV_DONTNEED);
+  const auto advise = [this](std::size_t from, std::size_t to, int advice) {
+    return from >= to || ::madvise(static_cast<char*>(address_) + from, to - from, advice) == 0;
+  };
+  advise(task.release_from, task.release_to, MADV_DONTNEED);
   // What cannot be read ahead shows when it is touched.
-  const std::size_t begin = task.wanted_from - task.wanted_from % page_size;
-  if (begin >= task.wanted_to) return;
+  const std::size_t begin = std::max(task.wanted_from - task.wanted_from % page_size, passed_.load());
 #ifdef MADV_POPULATE_READ
-  if (::madvise(at(begin), task.wanted_to - begin, MADV_POPULATE_READ) == 0) return;
+  const bool populated = advise(begin, task.wanted_to, MADV_POPULATE_READ);
+#else
+  const bool populated = false;
 #endif
-  ::madvise(at(begin), task.wanted_to - begin, MADV_WILLNEED);
+  if (!populated) advise(begin, task.wanted_to, MADV_WILLNEED);
+  // The reader may have overtaken this thread, and let go of these before they were there.
+  advise(begin, std::min(task.wanted_to, passed_.load()), MADV_DONTNEED);
 }
 
 void MappedFile::advance(std::size_t passed, std::size_t from, std::size_t to) {
@@ -157,6 +161,7 @@ void MappedFile::advance(std::size_t passed, std::size_t from, std::size_t to) {
             .wanted_from = from,
             .wanted_to = std::min(to, length_)};
   released_ = task.release_to;
+  passed_ = task.release_to;
   if (ahead_ == nullptr && length_ - task.wanted_to >= kLong) {
     run(task);  // these are read at once
     task.release_from = task.release_to;

@@ -3,6 +3,7 @@
 // zero and lost() tells.
 #pragma once
 
+#include <atomic>
 #include <csignal>
 #include <cstddef>
 #include <cstdint>
@@ -43,7 +44,8 @@ class MappedFile {
   void* address_;
   std::size_t length_;
   std::size_t slot_;
-  std::size_t released_ = 0;  // bytes let go of
+  std::size_t released_ = 0;             // bytes let go of
+  std::atomic<std::size_t> passed_ = 0;  // bytes the reader is done with, in whole pages
   const volatile std::sig_atomic_t* lost_;
   std::unique_ptr<Ahead> ahead_;  // of a long file, from its second window on
 };
