@@ -6,10 +6,7 @@
 
 #include <algorithm>
 #include <atomic>
-#include <condition_variable>
 #include <mutex>
-#include <system_error>
-#include <thread>
 
 namespace servotrace::replay {
 namespace {
@@ -79,108 +76,24 @@ std::unique_ptr<MappedFile> MappedFile::map(int descriptor, std::size_t length) 
   return nullptr;
 }
 
-// Does one task at a time beside the reader. Nothing is promised: what it has not done yet the reader's own touch does.
-struct MappedFile::Ahead {
-  explicit Ahead(const MappedFile& mapped) : file(mapped) {
-    // Signals are the reader's.
-    sigset_t all, before;
-    ::sigfillset(&all);
-    ::pthread_sigmask(SIG_SETMASK, &all, &before);
-    try {
-      thread = std::thread([this] { work(); });
-    } catch (const std::system_error&) {  // no thread to be had: take() says so
-    }
-    ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
-  }
-  Ahead(const Ahead&) = delete;
-  Ahead& operator=(const Ahead&) = delete;
-  ~Ahead() {
-    {
-      const std::lock_guard lock(mutex);
-      stop = true;
-    }
-    wake.notify_one();
-    if (thread.joinable()) thread.join();
-  }
-
-  // False, and nothing was taken, where the task before is not done or there is no thread.
-  bool take(const Task& given) {
-    {
-      const std::lock_guard lock(mutex);
-      if (busy || !thread.joinable()) return false;
-      task = given;
-      busy = true;
-    }
-    wake.notify_one();
-    return true;
-  }
-
-  void work() {
-    std::unique_lock lock(mutex);
-    for (;;) {
-      wake.wait(lock, [this] { return busy || stop; });
-      if (stop) return;
-      const Task now = task;
-      lock.unlock();
-      file.run(now);
-      lock.lock();
-      busy = false;
-    }
-  }
-
-  const MappedFile& file;
-  std::mutex mutex;
-  std::condition_variable wake;
-  Task task;
-  bool busy = false;
-  bool stop = false;
-  std::thread thread;
-};
-
-void MappedFile::run(const Task& task) const {
-  const auto advise = [this](std::size_t from, std::size_t to, int advice) {
-    return from >= to || ::madvise(static_cast<char*>(address_) + from, to - from, advice) == 0;
-  };
-  advise(task.release_from, task.release_to, MADV_DONTNEED);
-  // What cannot be read ahead shows when it is touched.
-  const std::size_t begin = std::max(task.wanted_from - task.wanted_from % page_size, passed_.load());
-#ifdef MADV_POPULATE_READ
-  const bool populated = advise(begin, task.wanted_to, MADV_POPULATE_READ);
-#else
-  const bool populated = false;
-#endif
-  if (!populated) advise(begin, task.wanted_to, MADV_WILLNEED);
-  // The reader may have overtaken this thread, and let go of these before they were there.
-  advise(begin, std::min(task.wanted_to, passed_.load()), MADV_DONTNEED);
-}
-
 void MappedFile::advance(std::size_t passed, std::size_t from, std::size_t to) {
-  constexpr std::size_t kLong = std::size_t{16} << 20U;  // bytes left from which a thread is worth its start
-  Task task{.release_from = released_,
-            .release_to = std::max(released_, passed - passed % page_size),
-            .wanted_from = from,
-            .wanted_to = std::min(to, length_)};
-  released_ = task.release_to;
-  passed_ = task.release_to;
-  if (ahead_ == nullptr && length_ - task.wanted_to >= kLong) {
-    run(task);  // these are read at once
-    task.release_from = task.release_to;
-    ahead_ = std::make_unique<Ahead>(*this);
+  const auto at = [this](std::size_t offset) { return static_cast<char*>(address_) + offset; };
+  const std::size_t whole = passed - passed % page_size;
+  if (whole > released_) {
+    ::madvise(at(released_), whole - released_, MADV_DONTNEED);
+    released_ = whole;
   }
-  if (ahead_ == nullptr) {
-    run(task);
-    return;
-  }
-  const std::size_t step = task.wanted_to - std::min(from, task.wanted_to);
-  task.wanted_from = task.wanted_to;
-  task.wanted_to = std::min(task.wanted_to + step, length_);
-  if (ahead_->take(task)) return;
-  task.wanted_to = task.wanted_from;
-  run(task);
+  // What cannot be read ahead shows when it is touched.
+  const std::size_t begin = from - from % page_size;
+  const std::size_t end = std::min(to, length_);
+  if (begin >= end) return;
+#ifdef MADV_POPULATE_READ
+  if (::madvise(at(begin), end - begin, MADV_POPULATE_READ) == 0) return;
+#endif
+  ::madvise(at(begin), end - begin, MADV_WILLNEED);
 }
 
 MappedFile::~MappedFile() {
-  ahead_.reset();
   slots[slot_].end = 0;
   slots[slot_].begin = 0;
   ::munmap(address_, length_);

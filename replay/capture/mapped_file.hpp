@@ -3,7 +3,6 @@
 // zero and lost() tells.
 #pragma once
 
-#include <atomic>
 #include <csignal>
 #include <cstddef>
 #include <cstdint>
@@ -23,8 +22,7 @@ class MappedFile {
   ~MappedFile();
 
   // For a reader that goes forward: asks for the bytes from `from` to `to` at once, and lets go of the memory of those
-  // before `passed`. They may still be read: they come from the file again. All are offsets in bytes. Of a long file a
-  // thread of its own asks for as many behind `to`, while those before are looked at.
+  // before `passed`. They may still be read: they come from the file again. All are offsets in bytes.
   void advance(std::size_t passed, std::size_t from, std::size_t to);
 
   Bytes bytes() const { return {static_cast<const std::uint8_t*>(address_), length_}; }
@@ -32,22 +30,12 @@ class MappedFile {
   const volatile std::sig_atomic_t* lost() const { return lost_; }
 
  private:
-  struct Ahead;
-  // What to let go of, and what to ask for: offsets in bytes.
-  struct Task {
-    std::size_t release_from = 0, release_to = 0;
-    std::size_t wanted_from = 0, wanted_to = 0;
-  };
   MappedFile(void* address, std::size_t length, std::size_t slot);
-  void run(const Task& task) const;
-
   void* address_;
   std::size_t length_;
   std::size_t slot_;
-  std::size_t released_ = 0;             // bytes let go of
-  std::atomic<std::size_t> passed_ = 0;  // bytes the reader is done with, in whole pages
+  std::size_t released_ = 0;  // bytes let go of
   const volatile std::sig_atomic_t* lost_;
-  std::unique_ptr<Ahead> ahead_;  // of a long file, from its second window on
 };
 
 }  // namespace servotrace::replay
