@@ -13,6 +13,12 @@
 namespace servotrace::report {
 namespace {
 
+// The rules of a drive are off where the drive is unknown or only guessed.
+bool judged_as_drive(const BusSummary& bus, const NodeSummary& node) {
+  if (bus.protocol != Protocol::kDevicenet) return true;  // every axis of a ring is taken for a MINAS A5N
+  return !node.profile.empty() && node.profile != "generic" && !node.recognised.starts_with("guessed");
+}
+
 class Judge {
  public:
   Judge(Model& model, const Settings& settings, const replay::BusNames& buses)
@@ -35,12 +41,29 @@ class Judge {
       verdict_.headline = "Nothing failed, and no rule was broken in this capture.";
       if (by_severity_[0] != 0)
         say(fmt::format("{} listed below.", plural(by_severity_[0], "note") + (by_severity_[0] == 1 ? " is" : " are")));
+      unjudged_drives();
     }
   }
 
  private:
   void say(std::string sentence) { verdict_.sentences.push_back(std::move(sentence)); }
   std::string name(const Finding& finding) const { return who(finding, settings_, buses_); }
+
+  // A clean verdict must not stand for a drive nobody looked into.
+  void unjudged_drives() {
+    std::string nodes;
+    for (const BusSummary& bus : model_.summary.buses) {
+      for (const NodeSummary& node : bus.nodes) {
+        if (!judged_as_drive(bus, node))
+          nodes += fmt::format("{}{}", nodes.empty() ? "" : ", ", node_text(node.node, node.name));
+      }
+    }
+    if (!nodes.empty())
+      say(
+          fmt::format("Whether the drive itself reported a fault cannot be told of: {}. Its profile is not known for "
+                      "certain; name it in servotrace.toml.",
+                      nodes));
+  }
 
   void failed() {
     verdict_.kind = VerdictKind::kFault;
@@ -174,6 +197,10 @@ void list_limits(Model& model, const replay::BusNames& buses) {
       list.push_back(fmt::format("{} is CAN without evidence of DeviceNet ({}): it was not checked.", name,
                                  plural(bus.frames, "frame")));
     for (const NodeSummary& node : bus.nodes) {
+      if (!judged_as_drive(bus, node))
+        list.push_back(fmt::format(
+            "{} on {}: {}; no rule of a drive was applied to it.", capitalised(node_text(node.node, node.name)), name,
+            node.recognised.empty() ? "its drive is not known" : node.profile + ", " + node.recognised));
       std::string assumed;
       for (const Fact& fact : node.facts) {
         if (fact.basis.kind == BasisKind::kAssumed)

@@ -115,6 +115,27 @@ TEST(FailureReportsTimes, AnAlarmIsDatedByItsRise) {
   for (const nlohmann::json& pair : fault["messages"]) EXPECT_LE(pair["frame"], risen);
 }
 
+// Without its profile a drive is not judged, and a verdict that finds nothing says so; with it there is nothing to say.
+TEST(FailureReportsTimes, AVerdictDoesNotClearADriveItDoesNotKnow) {
+  const Program program;
+  program.simulate("failure_limit", "run");
+  program.simulate("esb_clean", "known");
+  const auto said = [&](const std::string& capture, const std::vector<std::string>& more) {
+    std::vector<std::string> command = {"report", capture, "-o", "run.json"};
+    command.insert(command.end(), more.begin(), more.end());
+    const Outcome outcome = program.run(command);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    const nlohmann::json report = nlohmann::json::parse(program.read("run.json"))["captures"][0];
+    EXPECT_EQ(report["verdict"]["kind"], "clean") << capture;
+    return report["verdict"]["sentences"].dump() + report["cannot_show"].dump();
+  };
+  const std::string unknown = said("run.pcapng", {});
+  EXPECT_THAT(unknown, HasSubstr("cannot be told of: node 5"));
+  EXPECT_THAT(unknown, HasSubstr("Node 5 on can0: its drive is not known"));
+  program.write("known.toml", load_scenario(source_dir() / "captures" / "scenarios" / "esb_clean.toml").settings);
+  EXPECT_THAT(said("known.pcapng", {"--config", "known.toml"}), ::testing::Not(HasSubstr("no rule of a drive")));
+}
+
 // The close-up of a silence begins at the last message before it, and the node's last words are shown beside others of
 // their kind.
 TEST(FailureReportsTimes, ASilenceIsShownFromItsBeginning) {
