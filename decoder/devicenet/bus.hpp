@@ -116,6 +116,7 @@ class Bus {
   Size io_size(const Node& node, bool command) const;
   void push_poll(const Arrival& arrival, Node& node, bool command);
   void push_fragmented_poll(const Arrival& arrival, Node& node, bool command);
+  void deliver_whole(const Arrival& arrival, Node& node, bool command, const Transfer& transfer);
   inline bool push_next_fragment(const Arrival& arrival, Node& node, bool command);
   void push_ambiguous_poll(const Arrival& arrival, Node& node, bool command);
   void guess(const Arrival& arrival, Node& node, bool command, const Transfer& transfer);

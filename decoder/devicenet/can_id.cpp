@@ -95,8 +95,6 @@ constexpr auto kIdentifiers = [] {
 
 }  // namespace
 
-std::span<const MessageRow> messages() { return kMessages; }
-
 Identifier identify(std::uint32_t can_identifier) { return kIdentifiers[can_identifier & 0x7FFU]; }
 
 }  // namespace servotrace::devicenet

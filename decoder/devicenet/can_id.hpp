@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <string_view>
 
 #include "decoder/findings/finding.hpp"
@@ -53,9 +52,6 @@ struct MessageRow {
   Channel channel = Channel::kNone;
   std::string_view name;
 };
-
-// The predefined master/slave connection set and the unconnected ports; every other identifier is a group's own.
-std::span<const MessageRow> messages();
 
 struct Identifier {
   std::uint16_t value = 0;  // 0..7FFh

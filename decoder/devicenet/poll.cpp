@@ -41,6 +41,18 @@ Bus::Size Bus::io_size(const Node& node, bool command) const {
 
 void Bus::step(Node& node, PollEvent event) { node.poll.state = kPollMachine.next(node.poll.state, event).to; }
 
+// A message whose last fragment has come in order.
+void Bus::deliver_whole(const Arrival& arrival, Node& node, bool command, const Transfer& transfer) {
+  findings_.calm(node.poll_owner, rule("DN301"));
+  findings_.calm(node.poll_owner, rule("DN302"));
+  deliver(arrival, node, command,
+          {.bytes = transfer.message(),
+           .buffer = Buffer::kReassembled,
+           .offset = 0,
+           .first_frame = transfer.first_frame(),
+           .in_frame = arrival.bytes(1, arrival.can.data.size() - 1)});
+}
+
 // The fragment that is due: nothing to find. False, and nothing was done, for any other.
 [[gnu::always_inline]] inline bool Bus::push_next_fragment(const Arrival& arrival, Node& node, bool command) {
   Transfer& transfer = command ? node.poll.command : node.poll.response;
@@ -63,14 +75,7 @@ void Bus::step(Node& node, PollEvent event) { node.poll.state = kPollMachine.nex
     }
     return true;
   }
-  findings_.calm(node.poll_owner, rule("DN301"));
-  findings_.calm(node.poll_owner, rule("DN302"));
-  deliver(arrival, node, command,
-          {.bytes = transfer.message(),
-           .buffer = Buffer::kReassembled,
-           .offset = 0,
-           .first_frame = transfer.first_frame(),
-           .in_frame = arrival.bytes(1, data.size() - 1)});
+  deliver_whole(arrival, node, command, transfer);
   return true;
 }
 
@@ -151,16 +156,9 @@ void Bus::push_fragmented_poll(const Arrival& arrival, Node& node, bool command)
     }
   }
   if (!result.complete) return;
-  findings_.calm(node.poll_owner, rule("DN301"));
-  findings_.calm(node.poll_owner, rule("DN302"));
   show_fragments(arrival, transfer, node.ref);
   if (arrival.context.dissection != nullptr) arrival.context.dissection->reassembled = transfer.message();
-  deliver(arrival, node, command,
-          {.bytes = transfer.message(),
-           .buffer = Buffer::kReassembled,
-           .offset = 0,
-           .first_frame = transfer.first_frame(),
-           .in_frame = arrival.bytes(1, data.size() - 1)});
+  deliver_whole(arrival, node, command, transfer);
 }
 
 // The connection size is not known: the first byte is data, or the header of a fragment.
