@@ -43,7 +43,7 @@ Settings settings_of(const simulator::Scenario& scenario) {
   return {};
 }
 
-std::vector<CheckedFinding> check(const simulator::Simulation& simulation, const Settings& settings) {
+Pipeline judged(const simulator::Simulation& simulation, const Settings& settings) {
   Pipeline pipeline(settings);
   std::uint64_t number = 0;
   for (const simulator::SimulatedFrame& frame : simulation.frames) {
@@ -55,6 +55,11 @@ std::vector<CheckedFinding> check(const simulator::Simulation& simulation, const
                    .original_length = frame.original_length});
   }
   pipeline.finish();
+  return pipeline;
+}
+
+std::vector<CheckedFinding> check(const simulator::Simulation& simulation, const Settings& settings) {
+  const Pipeline pipeline = judged(simulation, settings);
   std::vector<CheckedFinding> result;
   for (const Finding& finding : pipeline.findings().all()) {
     const std::string id(rule_row(finding.rule).id);

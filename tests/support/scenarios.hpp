@@ -9,6 +9,7 @@
 
 #include "captures/simulator/scenario.hpp"
 #include "decoder/findings/finding.hpp"
+#include "decoder/pipeline/pipeline.hpp"
 #include "decoder/pipeline/settings.hpp"
 
 namespace servotrace::test {
@@ -27,6 +28,8 @@ struct CheckedFinding {
 };
 
 // All frames through one pipeline, then finish().
+Pipeline judged(const simulator::Simulation& simulation, const Settings& settings);
+// What that finds.
 std::vector<CheckedFinding> check(const simulator::Simulation& simulation, const Settings& settings);
 
 std::string_view channel_name(Channel channel);     // "" where there is none

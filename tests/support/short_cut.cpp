@@ -4,25 +4,14 @@
 #include <gtest/gtest.h>
 
 #include "decoder/findings/catalogue.hpp"
-#include "decoder/pipeline/pipeline.hpp"
+#include "tests/support/scenarios.hpp"
 
 namespace servotrace::test {
 namespace {
 
 Pipeline judge(const simulator::Simulation& simulation, Settings settings, bool every_block) {
   settings.judge_every_block = every_block;
-  Pipeline pipeline(settings);
-  std::uint64_t number = 0;
-  for (const simulator::SimulatedFrame& frame : simulation.frames) {
-    pipeline.push({.number = ++number,
-                   .time_ns = frame.time_ns,
-                   .link_type = simulation.interfaces[frame.interface_id].link_type,
-                   .interface_id = frame.interface_id,
-                   .bytes = frame.bytes,
-                   .original_length = frame.original_length});
-  }
-  pipeline.finish();
-  return pipeline;
+  return judged(simulation, settings);
 }
 
 std::string text(const Finding& finding) {
