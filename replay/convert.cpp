@@ -171,9 +171,8 @@ int run_convert(const Arguments& arguments) {
   app.add_flag("--partial", partial, "Of an IN that is cut or cannot be read on: write what stands before that place");
   capture_options.add_config_to(app);
   app.footer(
-      "Exit status: 0 done, 2 could not do the job; without --partial nothing is written where IN cannot be read to "
-      "its "
-      "end.\n\n"
+      "Exit status: 0 done, 2 could not do the job; without --partial nothing is written where IN cannot be read to\n"
+      "its end.\n\n"
       "Examples:\n  servotrace convert candump.log -o can.pcapng\n"
       "  servotrace convert run.pcap -o run.pcapng --carrier pdu\n"
       "  servotrace convert trace.csv -o trace.pcapng --map columns.toml");
