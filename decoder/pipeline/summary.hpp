@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -26,6 +27,12 @@ struct NodeSummary {
   std::string recognised;  // how: "configured", "identity (frame 12)", "guessed by I/O sizes", ...
   std::vector<Fact> facts;
 };
+
+// True where the rules of a drive were applied to a DeviceNet node of this profile, recognised in this way: a drive
+// that is only guessed is decoded, not judged.
+inline bool is_judged_as_drive(std::string_view profile, std::string_view recognised) {
+  return !profile.empty() && profile != "generic" && !recognised.starts_with("guessed");
+}
 
 // Latencies and intervals: counts, sums and bounds of a quantity in nanoseconds.
 struct Statistic {

@@ -24,6 +24,8 @@ class Text : public Output {
     for (const FindingRecord& finding : capture.findings) write(capture, finding);
     for (const RuleRecord& rule : capture.rules) add(capture, rule);
     for (const NodeRecord& node : capture.nodes) {
+      if (node.node.mac_id && node.node.protocol == "devicenet" && !is_judged_as_drive(node.profile, node.recognised))
+        ++unjudged_;
       if (node.sampled) sampled_.insert(fmt::format("{}: {}", capture.file, node.node.bus));
     }
     if (wants_statistics_) write_statistics(capture);
@@ -148,6 +150,10 @@ class Text : public Output {
         fmt::format(" in {} of {}", plural(totals.checked_frames, "checked frame"), plural(totals.captures, "capture"));
     if (totals.suppressed != 0) text += fmt::format(", {} suppressed", totals.suppressed);
     if (totals.baselined != 0) text += fmt::format(", {} accepted by the baseline", totals.baselined);
+    if (unjudged_ != 0)
+      text += fmt::format(
+          "; no rule of a drive was applied to {} whose drive is not known for certain (see servotrace info)",
+          plural(unjudged_, "node"));
     if (totals.status == kExitFailed) text += "; not everything could be read";
     out().write(text + "\n");
   }
@@ -161,6 +167,7 @@ class Text : public Output {
   bool wants_statistics_;
   std::map<RuleId, Row> rows_;
   std::set<std::string> sampled_;  // buses
+  std::uint64_t unjudged_ = 0;     // DeviceNet nodes whose drive is unknown or guessed
 };
 
 }  // namespace

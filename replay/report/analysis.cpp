@@ -16,7 +16,7 @@ namespace {
 // The rules of a drive are off where the drive is unknown or only guessed.
 bool judged_as_drive(const BusSummary& bus, const NodeSummary& node) {
   if (bus.protocol != Protocol::kDevicenet) return true;  // every axis of a ring is taken for a MINAS A5N
-  return !node.profile.empty() && node.profile != "generic" && !node.recognised.starts_with("guessed");
+  return is_judged_as_drive(node.profile, node.recognised);
 }
 
 class Judge {
@@ -38,10 +38,13 @@ class Judge {
       violated();
     } else {
       verdict_.kind = VerdictKind::kClean;
-      verdict_.headline = "Nothing failed, and no rule was broken in this capture.";
+      const std::string drives = unjudged_drives();
+      verdict_.headline =
+          fmt::format("Nothing failed, and no rule was broken in this capture{}{}.",
+                      drives.empty() ? "" : "; what the drive itself reports was not judged of ", drives);
       if (by_severity_[0] != 0)
         say(fmt::format("{} listed below.", plural(by_severity_[0], "note") + (by_severity_[0] == 1 ? " is" : " are")));
-      unjudged_drives();
+      if (!drives.empty()) say("The profile of a drive is named in servotrace.toml, or read from its Identity object.");
     }
   }
 
@@ -50,7 +53,7 @@ class Judge {
   std::string name(const Finding& finding) const { return who(finding, settings_, buses_); }
 
   // A clean verdict must not stand for a drive nobody looked into.
-  void unjudged_drives() {
+  std::string unjudged_drives() const {
     std::string nodes;
     for (const BusSummary& bus : model_.summary.buses) {
       for (const NodeSummary& node : bus.nodes) {
@@ -58,11 +61,7 @@ class Judge {
           nodes += fmt::format("{}{}", nodes.empty() ? "" : ", ", node_text(node.node, node.name));
       }
     }
-    if (!nodes.empty())
-      say(
-          fmt::format("Whether the drive itself reported a fault cannot be told of: {}. Its profile is not known for "
-                      "certain; name it in servotrace.toml.",
-                      nodes));
+    return nodes;
   }
 
   void failed() {

@@ -31,6 +31,19 @@ std::vector<nlohmann::json> lines_of(const std::string& text) {
   return lines;
 }
 
+// What a drive says is judged where the drive is known; a verdict without that must not sound like one with it.
+TEST_F(Check, TellsOfDrivesItDidNotJudge) {
+  program.simulate("failure_limit", "run");
+  const std::string told = "; no rule of a drive was applied to 1 node whose drive is not known for certain";
+  const Outcome unknown = program.run({"check", "run.pcapng"});
+  EXPECT_EQ(unknown.status, 0);
+  EXPECT_THAT(unknown.out, HasSubstr(told));
+  program.write("known.toml", "[[devicenet.node]]\nmac_id = 5\nprofile = \"yaskawa-ns310\"\n");
+  const Outcome known = program.run({"check", "run.pcapng", "--config", "known.toml"});
+  EXPECT_EQ(known.status, 1);
+  EXPECT_THAT(known.out, ::testing::Not(HasSubstr("no rule of a drive")));
+}
+
 TEST_F(Check, CleanCaptureIsOneLineAndZero) {
   program.simulate("rtex_clean", "clean");
   const Outcome outcome = program.run({"check", "clean.pcapng"});
