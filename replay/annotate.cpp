@@ -23,7 +23,7 @@ class Annotator : public FrameVisitor {
   Annotator(PcapngWriter& writer, const FileSettings& settings, const Selection& selection)
       : writer_(writer), settings_(settings), selection_(selection), filter_(selection.filter(settings.rules)) {}
 
-  bool wants_dissection(std::uint64_t) override { return false; }
+  Detail wanted_of(const RawFrame&) override { return Detail::kNothing; }
 
   bool on_frame(const RawFrame& frame, const Dissection*, const Pipeline& pipeline, const Source& source) override {
     write_held();

@@ -38,7 +38,9 @@ class Decoder : public FrameVisitor {
   Decoder(const DecodeOptions& options, const Settings& settings, Out& out)
       : options_(options), settings_(settings), out_(out) {}
 
-  bool wants_dissection(std::uint64_t frame) override { return frame >= options_.first && frame <= options_.last; }
+  Detail wanted_of(const RawFrame& frame) override {
+    return frame.number >= options_.first && frame.number <= options_.last ? Detail::kAll : Detail::kNothing;
+  }
 
   bool on_frame(const RawFrame& frame, const Dissection* dissection, const Pipeline& pipeline,
                 const Source& source) override {

@@ -22,9 +22,9 @@ class SecondLook : public FrameVisitor {
              CaptureRecord& capture)
       : wanted_(std::move(wanted)), settings_(settings), findings_(findings), capture_(capture) {}
 
-  bool wants_dissection(std::uint64_t frame) override {
-    while (next_ < wanted_.size() && wanted_[next_].frame < frame) ++next_;
-    return next_ < wanted_.size() && wanted_[next_].frame == frame;
+  Detail wanted_of(const RawFrame& frame) override {
+    while (next_ < wanted_.size() && wanted_[next_].frame < frame.number) ++next_;
+    return next_ < wanted_.size() && wanted_[next_].frame == frame.number ? Detail::kAll : Detail::kNothing;
   }
   bool on_frame(const RawFrame& frame, const Dissection* dissection, const Pipeline&, const Source&) override {
     for (; dissection != nullptr && next_ < wanted_.size() && wanted_[next_].frame == frame.number; ++next_) {

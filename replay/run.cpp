@@ -43,8 +43,9 @@ class Runner {
 
   bool push(const RawFrame& frame) {
     FrameVisitor* const visitor = options_.visitor;
-    Dissection* const wanted =
-        visitor != nullptr && visitor->wants_dissection(frame.number) ? dissection_.get() : nullptr;
+    const Detail detail = visitor != nullptr ? visitor->wanted_of(frame) : Detail::kNothing;
+    Dissection* const wanted = detail != Detail::kNothing ? dissection_.get() : nullptr;
+    if (wanted != nullptr) wanted->only_news = detail == Detail::kNews;
     pipeline_.push(frame, wanted);
     ++result_.frames;
     if (frame.has_time) {

@@ -43,6 +43,13 @@ struct CaptureResult {
   const FramePlace* place(std::uint64_t frame) const;
 };
 
+// How much of a frame a visitor wants to see: making a dissection costs more than checking.
+enum class Detail : std::uint8_t {
+  kNothing,
+  kNews,  // a dissection, but for records that say nothing new: those come with Dissection::repeats
+  kAll
+};
+
 // Sees the frames as they pass.
 class FrameVisitor {
  public:
@@ -50,8 +57,11 @@ class FrameVisitor {
   FrameVisitor(const FrameVisitor&) = delete;
   FrameVisitor& operator=(const FrameVisitor&) = delete;
   virtual ~FrameVisitor() = default;
-  // Asked before each push: making a dissection costs more than checking.
-  virtual bool wants_dissection(std::uint64_t frame) { return frame != 0; }
+  // Asked before each push.
+  virtual Detail wanted_of(const RawFrame& frame) {
+    static_cast<void>(frame);
+    return Detail::kAll;
+  }
   // After the push. `dissection`: nullptr where it was not wanted. The new findings are pipeline.fresh(). False:
   // enough, the rest of the capture is not read.
   virtual bool on_frame(const RawFrame& frame, const Dissection* dissection, const Pipeline& pipeline,

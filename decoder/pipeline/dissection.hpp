@@ -63,6 +63,11 @@ struct Dissection {
   Direction direction = Direction::kNone;
   Bytes frame;        // the frame's bytes, as pushed
   Bytes reassembled;  // the message this frame completes; owned by a session, valid until the next push
+  // Asked for by whoever hands the dissection over, kept by clear(): a record that says nothing new need not be taken
+  // apart. One that was not `repeats`: but for the Update_Counters its blocks are those of the record of that ring and
+  // direction before, and it has no segments of them.
+  bool only_news = false;
+  bool repeats = false;
 
   void clear() {
     segments.clear();
@@ -73,6 +78,7 @@ struct Dissection {
     direction = Direction::kNone;
     frame = {};
     reassembled = {};
+    repeats = false;
   }
   // The bytes under a segment.
   Bytes bytes(const Segment& segment) const {

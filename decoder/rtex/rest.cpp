@@ -23,6 +23,13 @@ bool same_words(Bytes bytes, const std::array<std::uint64_t, Rest::kMaxWords>& i
   return differs == 0;
 }
 
+// Every record is to be taken apart.
+bool wants_all(const Context& context) { return context.dissection != nullptr && !context.dissection->only_news; }
+
+void show_repeat(const Context& context) {
+  if (context.dissection != nullptr) context.dissection->repeats = true;
+}
+
 }  // namespace
 
 // A record of a ring at rest that says nothing to any rule of the ring, either: all there is to do is to count it.
@@ -44,7 +51,7 @@ bool Engine::glances(const Context& context, const RecordPlace& place) {
   const RawFrame& frame = context.frame;
   const bool shared = place.carrier == Carrier::kEthernet || place.carrier == Carrier::kUdp;
   if (!frame.has_time || frame.time_resolution_ns != ring_.time_resolution_ns || shared != ring_.shared_carrier ||
-      context.dissection != nullptr) {
+      wants_all(context)) {
     return false;
   }
   const std::uint64_t turn = direction.records;
@@ -53,6 +60,7 @@ bool Engine::glances(const Context& context, const RecordPlace& place) {
   if (response) {
     ring_.cycle_has_response = true;
     ring_.last_response_frame = frame.number;
+    ring_.last_response_time_ns = frame.time_ns;
     ++rest_.glanced_responses;
   } else {
     const DurationNs interval = elapsed_ns(ring_.last_command.time_ns, frame.time_ns);
@@ -73,6 +81,7 @@ bool Engine::glances(const Context& context, const RecordPlace& place) {
   }
   direction.frames[turn % Rest::kFrames] = frame.number;
   ++direction.records;
+  show_repeat(context);
   return true;
 }
 
@@ -116,7 +125,7 @@ bool Engine::goes_on_resting(const Context& context, bool response, Bytes blocks
   if (!rest_.reached) return false;
   Rest::Direction& direction = response ? rest_.response : rest_.command;
   const bool in_turn = rest_.command.records == rest_.response.records + (response ? 1 : 0);
-  if (!in_turn || context.dissection != nullptr || !ring_.record_quiet || !ring_.timing.known ||
+  if (!in_turn || wants_all(context) || !ring_.record_quiet || !ring_.timing.known ||
       blocks.size() != 8 * rest_.words ||
       !same_words(blocks, direction.images[direction.records % rest_.period], rest_.words)) {
     end_rest();
@@ -124,6 +133,7 @@ bool Engine::goes_on_resting(const Context& context, bool response, Bytes blocks
   }
   direction.frames[direction.records % Rest::kFrames] = context.frame.number;
   ++direction.records;
+  show_repeat(context);
   return true;
 }
 
@@ -134,7 +144,7 @@ void Engine::collect_rest(const Context& context, const RecordHeader& header, By
   Rest::Direction& direction = response ? rest_.response : rest_.command;
   const bool in_turn = rest_.command.records == rest_.response.records + (response ? 1 : 0);
   const std::size_t words = blocks.size() / 8;
-  if (ring_.awake != 0 || !in_turn || !can_rest() || context.dissection != nullptr || words > Rest::kMaxWords ||
+  if (ring_.awake != 0 || !in_turn || !can_rest() || wants_all(context) || words > Rest::kMaxWords ||
       (rest_.words != words && rest_.command.records + rest_.response.records != 0)) {
     rest_.command.records = rest_.response.records = 0;
     return;

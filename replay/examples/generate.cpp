@@ -49,7 +49,7 @@ struct Run {
 class Looks : public FrameVisitor {
  public:
   explicit Looks(Run& run) : run_(run) {}
-  bool wants_dissection(std::uint64_t) override { return false; }
+  Detail wanted_of(const RawFrame&) override { return Detail::kNothing; }
   bool on_frame(const RawFrame& frame, const Dissection*, const Pipeline& pipeline, const Source&) override {
     for (std::size_t i = 0; i < kRuleCount; ++i) {
       const std::uint64_t times = pipeline.findings().times_checked(static_cast<RuleId>(i));

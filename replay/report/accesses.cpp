@@ -95,6 +95,10 @@ void AccessLog::add_rtex(const RawFrame& frame, const Dissection& dissection) {
   const auto close = [&](const Segment& of, std::string open) {
     Node& node = node_of(of.node);
     if (node.open == open) return false;
+    entangled_ = entangled_ || node.opened_in == frame.number;
+    node.opened_in = frame.number;
+    open_ += open.empty() ? 0 : 1;
+    open_ -= node.open.empty() ? 0 : 1;
     node.open = std::move(open);
     return !node.open.empty();
   };
@@ -103,7 +107,8 @@ void AccessLog::add_rtex(const RawFrame& frame, const Dissection& dissection) {
     const Layout* layout = segment.layout;
     if (rtex::is_response_header(*layout)) {
       echo = nullptr;
-      if (read(slot(rtex::kResponse, "non_cyclic_command_echo"), dissection.bytes(segment)) == 0) close(segment, {});
+      const bool standard = read(slot(rtex::kResponse, "non_cyclic_command_echo"), dissection.bytes(segment)) == 0;
+      if (standard && open_ != 0) close(segment, {});
       continue;
     }
     if (layout == &rtex::kParameterEcho || layout == &rtex::kSystemIdEcho || layout == &rtex::kAlarmEcho) {

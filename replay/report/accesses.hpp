@@ -40,11 +40,14 @@ class AccessLog {
   // In the order of the file.
   std::vector<Access> take() { return std::move(accesses_); }
   std::uint64_t dropped() const { return dropped_; }
+  // Two answers in one record took turns at a node: each record has to be seen.
+  bool are_entangled() const { return entangled_; }
 
  private:
   struct Node {
-    std::string open;     // RTEX: the answer that stands, so that it is noted once
-    std::string written;  // DeviceNet: the value of a Set on its way
+    std::string open;             // RTEX: the answer that stands, so that it is noted once
+    std::uint64_t opened_in = 0;  // the frame that brought it, or ended it
+    std::string written;          // DeviceNet: the value of a Set on its way
     std::string string_key;
     bool in_program = false;                    // ESB
     std::map<std::string, std::string> values;  // by what
@@ -57,8 +60,10 @@ class AccessLog {
   Node& node_of(const NodeRef& node);
 
   std::map<std::uint64_t, Node> nodes_;
+  std::size_t open_ = 0;  // nodes of rings with an answer that stands
   std::vector<Access> accesses_;
   std::uint64_t dropped_ = 0;
+  bool entangled_ = false;
 };
 
 }  // namespace servotrace::report

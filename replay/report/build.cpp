@@ -15,6 +15,9 @@ constexpr std::size_t kFullFindings = 3;      // of a rule, whose frames are kep
 class Gather : public replay::FrameVisitor {
  public:
   explicit Gather(Collector& collector) : collector_(collector) {}
+  replay::Detail wanted_of(const RawFrame& frame) override {
+    return collector_.wants_all(frame) ? replay::Detail::kAll : replay::Detail::kNews;
+  }
   bool on_frame(const RawFrame& frame, const Dissection* dissection, const Pipeline&, const replay::Source&) override {
     if (dissection != nullptr) collector_.add(frame, *dissection);
     return true;
@@ -27,7 +30,7 @@ class Gather : public replay::FrameVisitor {
 // The first look: findings, and when every frame was recorded.
 class Clock : public replay::FrameVisitor {
  public:
-  bool wants_dissection(std::uint64_t) override { return false; }
+  replay::Detail wanted_of(const RawFrame&) override { return replay::Detail::kNothing; }
   bool on_frame(const RawFrame& frame, const Dissection*, const Pipeline&, const replay::Source&) override {
     times_.add(frame.number, frame.time_ns);
     return true;

@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "decoder/core/slot.hpp"
-#include "decoder/devicenet/derived.hpp"
 #include "decoder/render/value.hpp"
 #include "decoder/rtex/layouts.hpp"
 #include "replay/signals.hpp"
@@ -17,8 +16,6 @@ namespace {
 constexpr std::size_t kSeriesBins = 1024;
 constexpr std::size_t kCloseUpBins = 2048;
 constexpr std::size_t kMaxNodes = 512;
-constexpr std::size_t kScaleSamples = 64;  // intervals that choose the histogram's scale
-constexpr std::size_t kHistogramBins = 60;
 
 // Messages are kept for a fault from so long before its window on; those of DeviceNet always: a node that fell silent
 // said its last word long ago.
@@ -45,27 +42,17 @@ std::uint64_t key_of(const NodeRef& node) {
 std::uint64_t image_of(Bytes bytes) {
   std::uint64_t image = 0;
   if (bytes.size() == 4) return load_le(bytes, 0, 4);
+  if (bytes.size() == 8) return load_le64(bytes, 0);
   if (bytes.size() > sizeof image) return 0;
   for (std::size_t i = 0; i < bytes.size(); ++i) image |= std::uint64_t{bytes[i]} << (8U * i);
   return image;
 }
 
+// Of such an image.
+std::uint64_t byte_mask(std::size_t byte) { return byte < 8 ? std::uint64_t{0xFF} << 8U * byte : 0; }
+
 std::string text_of(const Field& field, std::int64_t raw, Bytes under) {
   return field.kind == Kind::kBytes || field.kind == Kind::kText ? bytes_text(field, under) : value_text(field, raw);
-}
-
-void count(Histogram& histogram, DurationNs value) {
-  ++histogram.samples;
-  if (value < histogram.first_ns) {
-    ++histogram.below;
-    return;
-  }
-  const auto bin = static_cast<std::size_t>((value - histogram.first_ns) / histogram.bin_ns);
-  if (bin >= histogram.counts.size()) {
-    ++histogram.above;
-  } else {
-    ++histogram.counts[bin];
-  }
 }
 
 bool is_series(const Field& field) {
@@ -133,31 +120,33 @@ Collector::Place& Collector::place_of(Node& node, const RawFrame& frame, const L
       signals_.push_back(
           {node.node, filter_name(layout, field), std::string(field.label), &field, Series(kSeriesBins)});
     }
-    place.fields.push_back(kept);
+    (kept.is_state ? place.states : place.signals).push_back(kept);
+    if (!kept.is_state) continue;
+    for (unsigned byte = 0; byte < kept.slot.byte_count; ++byte)
+      place.state_bytes |= byte_mask(kept.slot.first_byte + byte);
   }
   return place;
 }
 
 void Collector::add_segment(Node& node, std::size_t index, const RawFrame& frame, const Segment& segment, Bytes bytes) {
   Place& place = place_of(node, frame, *segment.layout, bytes);
-  const std::uint64_t image = image_of(bytes);
-  const bool same =
-      place.size != 0 && place.size == bytes.size() && place.image == image && place.changes == node.changes;
-  for (Kept& kept : place.fields) {
-    if (same && kept.is_state) continue;
-    if (!same) kept.value = read(kept.slot, bytes);
-    const std::int64_t value = kept.value;
-    if (!kept.is_state) {
-      add_signal(node, index, frame, *segment.layout, kept, value);
-      continue;
-    }
+  if (!place.states.empty()) add_states(node, frame, place, bytes);
+  for (const Kept& kept : place.signals) add_signal(node, index, frame, *segment.layout, kept, read(kept.slot, bytes));
+}
+
+void Collector::add_states(Node& node, const RawFrame& frame, Place& place, Bytes bytes) {
+  const std::uint64_t image = image_of(bytes) & place.state_bytes;
+  if (place.size == bytes.size() && place.image == image && place.changes == node.changes) return;
+  for (const Kept& kept : place.states) {
+    const std::int64_t value = read(kept.slot, bytes);
     StateTrack& track = tracks_[kept.index];
     if (track.value == value) continue;
     ++node.changes;
+    repeats_.note_change(kept.index);
     track.add({.time_ns = frame.time_ns,
                .frame = frame.number,
                .node = node.node,
-               .layout = segment.layout,
+               .layout = place.layout,
                .field = kept.field,
                .before = track.value,
                .after = value,
@@ -170,6 +159,7 @@ void Collector::add_segment(Node& node, std::size_t index, const RawFrame& frame
 
 void Collector::add_signal(Node& node, std::size_t index, const RawFrame& frame, const Layout& layout, const Kept& kept,
                            std::int64_t value) {
+  repeats_.note_sample(kept.index, value);
   signals_[kept.index].series.add(frame.time_ns, value);
   if (open_.empty()) return;
   add_close_up(frame, node, index, layout, *kept.field, value);
@@ -289,95 +279,27 @@ void Collector::look_for_code(CloseUp& close_up, const RawFrame& frame, const Di
   }
 }
 
-void Collector::scale(Cycle& cycle) {
-  // The middle of the picture is the median, its width a fifth of it each way: jitter is what is looked for.
-  std::vector<DurationNs> sorted = cycle.first;
-  std::sort(sorted.begin(), sorted.end());
-  const DurationNs median = std::max<DurationNs>(sorted[sorted.size() / 2], 1);
-  DurationNs spread = std::max<DurationNs>(median / 5, static_cast<DurationNs>(kHistogramBins));
-  const DurationNs widest = std::max(sorted.back() - median, median - sorted.front());
-  while (spread < widest && spread < median) spread *= 2;
-  Histogram& histogram = cycle.histogram;
-  histogram.first_ns = std::max<DurationNs>(median - spread, 0);
-  histogram.bin_ns = std::max<DurationNs>(2 * spread / static_cast<DurationNs>(kHistogramBins), 1);
-  histogram.counts.assign(kHistogramBins, 0);
+bool Collector::CloseUp::looks_at(const RawFrame& frame) const {
+  if (frame.number == watch.frame || (frame.time_ns >= watch.begin_ns && frame.time_ns <= watch.end_ns)) return true;
+  if (taken || watch.node.mac_id == kNoMacId) return false;
+  return frame.number > watch.frame || elapsed_ns(frame.time_ns, watch.begin_ns) <= kMessagesBefore;
 }
 
-Collector::Cycle* Collector::cycle_of(const BusRef& bus, std::string_view title) {
-  for (Cycle& cycle : cycles_) {
-    if (cycle.bus == bus && cycle.title == title) return &cycle;
-  }
-  if (cycles_.size() >= 64) return nullptr;
-  Cycle& cycle = cycles_.emplace_back();
-  cycle.bus = bus;
-  cycle.title = title;
-  cycle.histogram.bus = bus;
-  cycle.histogram.title = std::string(title);
-  return &cycle;
-}
-
-void Collector::add_interval(Cycle& cycle, DurationNs interval) {
-  if (!cycle.histogram.counts.empty()) {
-    count(cycle.histogram, interval);
-    return;
-  }
-  cycle.first.push_back(interval);
-  if (cycle.first.size() < kScaleSamples) return;
-  scale(cycle);
-  for (const DurationNs value : cycle.first) count(cycle.histogram, value);
-}
-
-void Collector::add_cycle(const RawFrame& frame, const Dissection& dissection) {
-  if (dissection.protocol != Protocol::kRtex || dissection.direction != Direction::kCommand || !frame.has_time) return;
-  Cycle* const cycle = cycle_of(dissection.bus, "Time between command records");
-  if (cycle == nullptr) return;
-  const DurationNs interval = elapsed_ns(cycle->last_ns, frame.time_ns);
-  const bool usable = cycle->has_last && interval >= 0;
-  cycle->last_ns = frame.time_ns;
-  cycle->has_last = true;
-  if (usable) add_interval(*cycle, interval);
-}
-
-// Poll intervals and response times of DeviceNet: the session measured them.
-void Collector::add_times(const Dissection& dissection) {
-  if (dissection.protocol != Protocol::kDevicenet) return;
-  bool is_poll = false;
-  for (const Derived& derived : dissection.derived) {
-    if (derived.field == &devicenet::kMessageField) is_poll = derived.text.starts_with("Poll");
-  }
-  for (const Derived& derived : dissection.derived) {
-    std::string_view title;
-    if (derived.field == &devicenet::kPollIntervalField) title = "Time between poll commands of a node";
-    if (derived.field == &devicenet::kResponseTimeField)
-      title = is_poll ? "Poll response time" : "Explicit response time";
-    if (title.empty() || derived.value < 0) continue;
-    if (Cycle* const cycle = cycle_of(dissection.bus, title); cycle != nullptr) add_interval(*cycle, derived.value);
-  }
-}
-
-// A base frame of n data bytes takes 47 + 8n bits with the space behind it, without stuff bits (ISO 11898-1). The data
-// of a SocketCAN record begins at byte 8.
-void Collector::add_load(const RawFrame& frame, const Dissection& dissection) {
-  if (dissection.protocol != Protocol::kDevicenet || !frame.has_time || frame.bytes.size() < 8) return;
-  auto found =
-      std::find_if(loads_.begin(), loads_.end(), [&](const Load& load) { return load.load.bus == dissection.bus; });
-  if (found == loads_.end()) {
-    if (loads_.size() >= 64) return;
-    loads_.push_back({{.bus = dissection.bus}, frame.time_ns, 0});
-    found = loads_.end() - 1;
-  }
-  const std::uint64_t bits = 47 + 8 * std::min<std::uint64_t>(frame.bytes.size() - 8, 8);
-  found->load.bits += bits;
-  const DurationNs into = elapsed_ns(found->window_ns, frame.time_ns);
-  if (into < 0 || into >= kLoadWindowNs) {
-    found->window_ns = frame.time_ns;
-    found->window_bits = 0;
-  }
-  found->window_bits += bits;
-  found->load.peak_bits = std::max(found->load.peak_bits, found->window_bits);
+// A code is looked for behind the fault's frame, which is taken apart, and then so is what comes before a record can
+// repeat another.
+bool Collector::wants_all(const RawFrame& frame) const {
+  if (repeats_.are_entangled() || accesses_.are_entangled() || evidence_.is_due(frame.number)) return true;
+  return std::any_of(close_ups_.begin(), close_ups_.end(),
+                     [&](const CloseUp& close_up) { return close_up.looks_at(frame); });
 }
 
 void Collector::add(const RawFrame& frame, const Dissection& dissection) {
+  if (dissection.repeats) {
+    repeats_.add(frame.time_ns, dissection);
+    times_.add(frame, dissection);
+    return;
+  }
+  repeats_.begin(dissection);
   evidence_.add(frame, dissection, settings_);
   if (dissection.protocol == Protocol::kNone) return;
   open_.clear();
@@ -399,13 +321,12 @@ void Collector::add(const RawFrame& frame, const Dissection& dissection) {
       look_for_code(close_up, frame, dissection);
     }
   }
-  add_cycle(frame, dissection);
-  add_times(dissection);
-  add_load(frame, dissection);
+  times_.add(frame, dissection);
   accesses_.add(frame, dissection);
 }
 
 void Collector::finish(Model& model) {
+  repeats_.finish();
   model.tracks = std::move(tracks_);
   model.signals = std::move(signals_);
   model.evidence = evidence_.take();
@@ -418,15 +339,7 @@ void Collector::finish(Model& model) {
   }
   model.accesses = accesses_.take();
   model.more_accesses = accesses_.dropped();
-  for (const Load& load : loads_) model.loads.push_back(load.load);
-  for (Cycle& cycle : cycles_) {
-    if (cycle.histogram.counts.empty()) {
-      if (cycle.first.empty()) continue;
-      scale(cycle);
-      for (const DurationNs value : cycle.first) count(cycle.histogram, value);
-    }
-    model.histograms.push_back(std::move(cycle.histogram));
-  }
+  times_.finish(model);
 }
 
 }  // namespace servotrace::report

@@ -16,7 +16,9 @@
 #include "decoder/pipeline/dissection.hpp"
 #include "decoder/pipeline/settings.hpp"
 #include "replay/report/accesses.hpp"
+#include "replay/report/bus_times.hpp"
 #include "replay/report/model.hpp"
+#include "replay/report/repeats.hpp"
 
 namespace servotrace::report {
 
@@ -34,6 +36,8 @@ class Collector {
  public:
   Collector(const Settings& settings, const std::vector<Watch>& watches, std::vector<WantedFrame> evidence);
 
+  // False where the frame may come as one that repeats (Dissection::repeats).
+  bool wants_all(const RawFrame& frame) const;
   void add(const RawFrame& frame, const Dissection& dissection);
   // Moves what was gathered into the model; faults' parts into the fault of the same index as its watch.
   void finish(Model& model);
@@ -56,15 +60,16 @@ class Collector {
     Slot slot;
     std::size_t index = 0;  // into tracks_ or signals_
     bool is_state = false;
-    std::int64_t value = 0;  // read last
   };
   struct Place {
     const Layout* layout = nullptr;
-    std::vector<Kept> fields;
-    // The bytes read last, of a short message, and the changes of the node until then: the same bytes again change
-    // nothing where nothing else has changed.
+    std::vector<Kept> states;
+    std::vector<Kept> signals;
+    // The bytes of the states read last, of a short message, and the changes of the node until then: the same bytes
+    // again change nothing where nothing else has changed.
+    std::uint64_t state_bytes = 0;  // a mask
     std::uint64_t image = 0;
-    std::size_t size = 0;  // of `image`; 0: none
+    std::size_t size = 0;  // of the message; 0: none
     std::uint64_t changes = 0;
   };
   struct Node {
@@ -91,37 +96,20 @@ class Collector {
     std::int64_t code = 0;  // read out of the drive after the fault
     std::uint64_t code_frame = 0;
     std::string code_text;
+    // True where it needs the frame taken apart.
+    bool looks_at(const RawFrame& frame) const;
   };
-  struct Load {
-    BusLoad load;
-    TimeNs window_ns = 0;  // where the present window begins
-    std::uint64_t window_bits = 0;
-  };
-  struct Cycle {
-    BusRef bus;
-    std::string_view title;
-    TimeNs last_ns = 0;
-    bool has_last = false;
-    std::vector<DurationNs> first;  // until the scale is chosen
-    Histogram histogram;
-  };
-
   std::size_t node_index(const NodeRef& node);
   Place& place_of(Node& node, const RawFrame& frame, const Layout& layout, Bytes bytes);
   void add_segment(Node& node, std::size_t index, const RawFrame& frame, const Segment& segment, Bytes bytes);
+  void add_states(Node& node, const RawFrame& frame, Place& place, Bytes bytes);
   void add_signal(Node& node, std::size_t index, const RawFrame& frame, const Layout& layout, const Kept& kept,
                   std::int64_t value);
   void add_close_up(const RawFrame& frame, const Node& node, std::size_t index, const Layout& layout,
                     const Field& field, std::int64_t value);
   void add_snapshots(const RawFrame& frame, const Dissection& dissection);
-  void add_cycle(const RawFrame& frame, const Dissection& dissection);
-  void add_times(const Dissection& dissection);
-  void add_load(const RawFrame& frame, const Dissection& dissection);
-  Cycle* cycle_of(const BusRef& bus, std::string_view title);
-  static void add_interval(Cycle& cycle, DurationNs interval);
   void take_messages(CloseUp& close_up);
   static void look_for_code(CloseUp& close_up, const RawFrame& frame, const Dissection& dissection);
-  static void scale(Cycle& cycle);
 
   const Settings& settings_;
   std::deque<Node> nodes_;  // stays where it is: `last` points into it
@@ -132,8 +120,8 @@ class Collector {
   std::vector<Signal> signals_;
   std::vector<CloseUp> close_ups_;
   std::vector<CloseUp*> open_;  // those whose window holds the present frame
-  std::vector<Cycle> cycles_;
-  std::vector<Load> loads_;
+  BusTimes times_;
+  Repeats repeats_{signals_};
   AccessLog accesses_;
   FrameLog evidence_;
 };

@@ -47,6 +47,8 @@ struct WantedFrame {
 class FrameLog {
  public:
   explicit FrameLog(std::vector<WantedFrame> wanted);
+  // True where add() has to see this frame.
+  bool is_due(std::uint64_t frame) const { return next_ < wanted_.size() && wanted_[next_].frame <= frame; }
   // Frames come in the order of their numbers.
   void add(const RawFrame& frame, const Dissection& dissection, const Settings& settings);
   ShownFrames take() { return std::move(shown_); }

@@ -16,9 +16,9 @@ class FrameTimes {
 
   // Frames come in the order of their numbers, which begin at 1, and none is left out.
   void add(std::uint64_t frame, TimeNs time_ns) {
-    if ((frame - 1) % stride_ != 0) return;
+    if (((frame - 1) & (stride_ - 1)) != 0) return;
     if (times_.size() == most_) thin();
-    if ((frame - 1) % stride_ == 0) times_.push_back(time_ns);
+    if (((frame - 1) & (stride_ - 1)) == 0) times_.push_back(time_ns);
   }
   // The time of the frame, or of one close before it. `other` where nothing is known.
   TimeNs at(std::uint64_t frame, TimeNs other) const {
@@ -35,7 +35,7 @@ class FrameTimes {
   }
 
   std::size_t most_;
-  std::uint64_t stride_ = 1;
+  std::uint64_t stride_ = 1;  // a power of two
   std::vector<TimeNs> times_;
 };
 

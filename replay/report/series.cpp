@@ -41,6 +41,21 @@ void Series::add(TimeNs time_ns, std::int64_t value) {
   bins_.push_back({time_ns, value, value, value, 1});
 }
 
+void Series::add(std::span<const TimeNs> times, std::int64_t value) {
+  while (!times.empty()) {
+    add(times.front(), value);
+    times = times.subspan(1);
+    Bin& bin = bins_.back();  // has the value now: of those that fall into it, too, only the number counts
+    const auto end = std::partition_point(times.begin(), times.end(), [&](TimeNs time_ns) {
+      return elapsed_ns(bin.time_ns, time_ns) < bin_ns_ || time_ns < bin.time_ns;
+    });
+    const auto joined = static_cast<std::size_t>(end - times.begin());
+    bin.samples += static_cast<std::uint32_t>(joined);
+    samples_ += joined;
+    times = times.subspan(joined);
+  }
+}
+
 bool Series::is_constant() const {
   for (const Bin& bin : bins_) {
     if (bin.minimum != bins_.front().minimum || bin.maximum != bins_.front().minimum) return false;
