@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "decoder/render/dissection_json.hpp"
 #include "decoder/render/dissection_text.hpp"
 #include "decoder/render/message.hpp"
 #include "decoder/render/sentence.hpp"
@@ -89,7 +90,7 @@ class Decoder : public FrameVisitor {
     json.member("protocol", servotrace::name_of(dissection.protocol));
     json.member("direction", direction_word(dissection.direction));
     json.member("sentence", sentence(dissection, &settings_));
-    if (!options_.brief) write_json(json, dissection, settings_);
+    if (!options_.brief) fields_.write(json, dissection);
     json.key("findings").begin_array();
     for (const Finding& finding : pipeline.fresh()) {
       json.begin_object()
@@ -108,6 +109,7 @@ class Decoder : public FrameVisitor {
   Out& out_;
   Style style_{options_.format == "text" && use_colour(when_of(options_.colour).value_or(When::kNever), 1)};
   BusNames names_;
+  DissectionJson fields_{settings_};
   std::string text_;
 };
 

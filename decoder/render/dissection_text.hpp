@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-// A dissection in full, field by field: text and JSON.
+// A dissection in full, field by field, as text.
 #pragma once
 
 #include <string>
 
 #include "decoder/pipeline/dissection.hpp"
 #include "decoder/pipeline/settings.hpp"
-#include "decoder/render/json.hpp"
 
 namespace servotrace {
 
@@ -18,9 +17,6 @@ struct TextOptions {
 // Appends one indented line a field, under one line a segment; then derived values and links.
 void append_text(std::string& out, const Dissection& dissection, const Settings& settings,
                  const TextOptions& options = {});
-
-// Writes the members "segments", "derived" and "links" into the open object.
-void write_json(JsonWriter& json, const Dissection& dissection, const Settings& settings);
 
 // "request in", "accepted in" ...
 std::string_view name_of(LinkKind kind);

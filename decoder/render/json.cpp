@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cassert>
 #include <iterator>
 
 namespace servotrace {
@@ -109,7 +110,7 @@ void append_json_string(std::string& out, std::string_view text) {
 void JsonWriter::new_line() {
   if (indent_ == 0) return;
   out_ += '\n';
-  out_.append(filled_.size() * indent_, ' ');
+  out_.append(std::size_t{depth_} * indent_, ' ');
 }
 
 void JsonWriter::separate() {
@@ -117,22 +118,24 @@ void JsonWriter::separate() {
     after_key_ = false;
     return;
   }
-  if (filled_.empty()) return;
-  if (filled_.back()) out_ += ',';
-  filled_.back() = true;
-  new_line();
+  if ((filled_ & 1U) != 0) out_ += ',';
+  filled_ |= 1U;
+  if (depth_ != 0) new_line();
 }
 
 JsonWriter& JsonWriter::begin(char bracket) {
   separate();
   out_ += bracket;
-  filled_.push_back(false);
+  ++depth_;
+  filled_ <<= 1U;
+  assert(depth_ < 64);
   return *this;
 }
 
 JsonWriter& JsonWriter::end(char bracket) {
-  const bool filled = filled_.back();
-  filled_.pop_back();
+  const bool filled = (filled_ & 1U) != 0;
+  filled_ >>= 1U;
+  --depth_;
   if (filled) new_line();
   out_ += bracket;
   return *this;
@@ -152,12 +155,18 @@ JsonWriter& JsonWriter::value(std::string_view text) {
   return *this;
 }
 
-JsonWriter& JsonWriter::value(std::int64_t number) { return raw(fmt::format_int(number).c_str()); }
-JsonWriter& JsonWriter::value(std::uint64_t number) { return raw(fmt::format_int(number).c_str()); }
+JsonWriter& JsonWriter::value(std::int64_t number) {
+  const fmt::format_int text(number);
+  return raw({text.data(), text.size()});
+}
+JsonWriter& JsonWriter::value(std::uint64_t number) {
+  const fmt::format_int text(number);
+  return raw({text.data(), text.size()});
+}
 
-JsonWriter& JsonWriter::raw(std::string_view number) {
+JsonWriter& JsonWriter::raw(std::string_view text) {
   separate();
-  out_ += number;
+  out_ += text;
   return *this;
 }
 

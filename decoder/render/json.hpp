@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace servotrace {
 
@@ -18,7 +17,8 @@ void append_json_string(std::string& out, std::string_view text);
 
 class JsonWriter {
  public:
-  // Appends to `out`, which must outlive the writer. indent 0: everything on one line.
+  // Appends to `out`, which must outlive the writer. indent 0: everything on one line. Several members or elements
+  // outside any bracket are a piece for raw().
   explicit JsonWriter(std::string& out, unsigned indent = 0) : out_(out), indent_(indent) {}
 
   JsonWriter& begin_object() { return begin('{'); }
@@ -35,8 +35,8 @@ class JsonWriter {
   JsonWriter& value(unsigned number) { return value(std::uint64_t{number}); }
   JsonWriter& value(bool truth) { return raw(truth ? "true" : "false"); }
   JsonWriter& null() { return raw("null"); }
-  // A number written by the caller ("0.001").
-  JsonWriter& raw(std::string_view number);
+  // What the caller has written: a number ("0.001"), members or elements kept from another writer of one line.
+  JsonWriter& raw(std::string_view text);
 
   template <class Value>
   JsonWriter& member(std::string_view name, const Value& content) {
@@ -51,7 +51,8 @@ class JsonWriter {
 
   std::string& out_;
   unsigned indent_;
-  std::vector<bool> filled_;  // one an open bracket: something stands in it
+  unsigned depth_ = 0;        // open brackets
+  std::uint64_t filled_ = 0;  // a bit for each of them, the innermost lowest: something stands in it
   bool after_key_ = false;
 };
 

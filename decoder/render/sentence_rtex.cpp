@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "decoder/render/key_table.hpp"
 #include "decoder/render/value.hpp"
 #include "decoder/render/words.hpp"
 #include "decoder/rtex/codes.hpp"
@@ -31,9 +32,51 @@ struct Part {
   std::int64_t alarm = 0;
 };
 
-bool is_one_of(std::string_view key, std::initializer_list<std::string_view> keys) {
-  return std::find(keys.begin(), keys.end(), key) != keys.end();
-}
+// Fields that a sentence has a place of its own for.
+enum class Place : std::uint8_t {
+  kCounter,
+  kCyclic,
+  kNonCyclic,
+  kCommandError,
+  kProgress,
+  kType,
+  kIndex,
+  kParameter,
+  kQuantity,
+  kValue,
+  kCharacters,
+  kError
+};
+constexpr KeyTable<Place, 28> kPlaces({
+    {"update_counter", Place::kCounter},
+    {"update_counter_echo", Place::kCounter},
+    {"cyclic_command", Place::kCyclic},
+    {"cyclic_command_echo", Place::kCyclic},
+    {"non_cyclic_command", Place::kNonCyclic},
+    {"non_cyclic_command_echo", Place::kNonCyclic},
+    {"command", Place::kNonCyclic},
+    {"command_echo", Place::kNonCyclic},
+    {"cmd_error", Place::kCommandError},
+    {"cmd_err", Place::kCommandError},
+    {"busy", Place::kProgress},
+    {"wng", Place::kProgress},
+    {"err", Place::kProgress},
+    {"type_code", Place::kType},
+    {"type_code_echo", Place::kType},
+    {"index", Place::kIndex},
+    {"index_echo", Place::kIndex},
+    {"parameter", Place::kParameter},
+    {"parameter_echo", Place::kParameter},
+    {"setting_data", Place::kQuantity},
+    {"setting_data_echo", Place::kQuantity},
+    {"parameter_value", Place::kQuantity},
+    {"parameter_count", Place::kQuantity},
+    {"monitor_select", Place::kValue},
+    {"feedforward", Place::kValue},
+    {"characters", Place::kCharacters},
+    {"error_code", Place::kError},
+    {"sub_error_code", Place::kError},
+});
 
 std::string name_or(const Field& field, std::int64_t raw, std::string_view otherwise) {
   const ValueName* const name = find_value(field.values, raw);
@@ -45,65 +88,84 @@ void take_code(Part& part, const Field& field, std::int64_t raw) {
   part.command = name_or(field, raw, "non-cyclic command");
 }
 
-// Fields that a sentence has a place of its own for. False: any other.
-bool take_argument(Part& part, const Field& field, std::int64_t raw, Bytes under) {
-  const std::string_view key = field.key;
-  if (is_one_of(key, {"type_code", "type_code_echo"})) {
-    part.type = name_or(field, raw, "type code");
-  } else if (is_one_of(key, {"index", "index_echo"})) {
-    if (raw != 0) part.argument = fmt::format(" index {}", raw);
-  } else if (is_one_of(key, {"parameter", "parameter_echo"})) {
-    const ValueName* const name = find_value(field.values, raw);
-    part.argument =
-        name != nullptr ? fmt::format(" {}", name->name) : fmt::format(" Pr{}.{:02}", raw >> 8 & 0xFF, raw & 0xFF);
-  } else if (is_one_of(key, {"setting_data", "setting_data_echo", "parameter_value", "parameter_count"})) {
-    part.value = quantity_text(field, raw);
-  } else if (is_one_of(key, {"monitor_select", "feedforward"})) {
-    part.value = value_text(field, raw);
-  } else if (key == "characters") {
-    part.value = bytes_text(field, under);
-  } else if (is_one_of(key, {"error_code", "sub_error_code"})) {
-    part.error = name_or(field, raw, "error");
-  } else {
-    return false;
+std::string parameter_words(const Field& field, std::int64_t raw) {
+  const ValueName* const name = find_value(field.values, raw);
+  return name != nullptr ? fmt::format(" {}", name->name) : fmt::format(" Pr{}.{:02}", raw >> 8 & 0xFF, raw & 0xFF);
+}
+
+void take_alarm(Part& part, const Field& field, std::int64_t raw) {
+  if (field.key == "alarm_main") {
+    part.alarm = raw;
+    part.value = raw == 0 ? "no alarm" : std::string();
+  } else if (field.key == "alarm_sub" && part.alarm != 0) {
+    const ValueName* const name = find_value(rtex::kAlarmCode.find("alarm_main")->values, part.alarm);
+    part.value = fmt::format("Err{}.{}{}{}", part.alarm, raw, name == nullptr ? "" : " ",
+                             name == nullptr ? std::string_view() : name->name);
+  } else if (field.key == "warning_code" && raw != 0) {
+    join(part.value, ", ", name_or(field, raw, "warning"));
   }
-  return true;
+}
+
+void take_word(Part& part, const Layout& layout, const Field& field, std::int64_t raw, Bytes under) {
+  const bool leads = field.role == Role::kSignal && layout.key == "command" && part.values.empty() &&
+                     !part.cyclic.empty() && part.cyclic.find(' ') == std::string::npos;
+  if (leads) {
+    part.cyclic += " " + quantity_text(field, raw);
+    return;
+  }
+  std::string word = field_word(field, raw, under);
+  const bool alone = layout.fields.size() == 1 && field.unit != Unit::kNone && field.values.empty();
+  if (word.empty() && alone) word = fmt::format("{} {}", short_label(field.label), quantity_text(field, raw));
+  join(is_flag(field) ? part.status : part.values, is_flag(field) ? " " : ", ", word);
 }
 
 void take_field(Part& part, const Layout& layout, const Field& field, std::int64_t raw, Bytes under) {
-  const std::string_view key = field.key;
-  if (is_one_of(key, {"update_counter", "update_counter_echo"})) {
-    part.counter = fmt::format("counter {}", raw);
-  } else if (is_one_of(key, {"cyclic_command", "cyclic_command_echo"})) {
-    part.cyclic = name_or(field, raw, "cyclic command");
-  } else if (is_one_of(key, {"non_cyclic_command", "non_cyclic_command_echo", "command", "command_echo"})) {
-    take_code(part, field, raw);
-  } else if (&layout == &rtex::kAlarmCode) {
-    if (key == "alarm_main") {
-      part.alarm = raw;
-      part.value = raw == 0 ? "no alarm" : std::string();
-    } else if (key == "alarm_sub" && part.alarm != 0) {
-      const ValueName* const name = find_value(layout.find("alarm_main")->values, part.alarm);
-      part.value = fmt::format("Err{}.{}{}{}", part.alarm, raw, name == nullptr ? "" : " ",
-                               name == nullptr ? std::string_view() : name->name);
-    } else if (key == "warning_code" && raw != 0) {
-      join(part.value, ", ", name_or(field, raw, "warning"));
-    }
-  } else if (is_one_of(key, {"cmd_error", "cmd_err"})) {
-    if (raw != 0 && part.error.empty()) part.error = "command error";
-  } else if (is_one_of(key, {"busy", "wng", "err"})) {
-    if (raw != 0) join(part.progress, ", ", field.key == "busy" ? "busy" : field.label);
-  } else if (!take_argument(part, field, raw, under)) {
-    std::string word = field_word(field, raw, under);
-    const bool alone = layout.fields.size() == 1 && field.unit != Unit::kNone && field.values.empty();
-    if (word.empty() && alone) word = fmt::format("{} {}", short_label(field.label), quantity_text(field, raw));
-    const bool leads = field.role == Role::kSignal && layout.key == "command" && part.values.empty() &&
-                       !part.cyclic.empty() && part.cyclic.find(' ') == std::string::npos;
-    if (leads) {
-      part.cyclic += " " + quantity_text(field, raw);
+  const Place* const place = kPlaces.find(field.key);
+  if (place == nullptr) {
+    if (&layout == &rtex::kAlarmCode) {
+      take_alarm(part, field, raw);
     } else {
-      join(is_flag(field) ? part.status : part.values, is_flag(field) ? " " : ", ", word);
+      take_word(part, layout, field, raw, under);
     }
+    return;
+  }
+  switch (*place) {
+    case Place::kCounter:
+      part.counter = fmt::format("counter {}", raw);
+      break;
+    case Place::kCyclic:
+      part.cyclic = name_or(field, raw, "cyclic command");
+      break;
+    case Place::kNonCyclic:
+      take_code(part, field, raw);
+      break;
+    case Place::kCommandError:
+      if (raw != 0 && part.error.empty()) part.error = "command error";
+      break;
+    case Place::kProgress:
+      if (raw != 0) join(part.progress, ", ", field.key == "busy" ? "busy" : field.label);
+      break;
+    case Place::kType:
+      part.type = name_or(field, raw, "type code");
+      break;
+    case Place::kIndex:
+      if (raw != 0) part.argument = fmt::format(" index {}", raw);
+      break;
+    case Place::kParameter:
+      part.argument = parameter_words(field, raw);
+      break;
+    case Place::kQuantity:
+      part.value = quantity_text(field, raw);
+      break;
+    case Place::kValue:
+      part.value = value_text(field, raw);
+      break;
+    case Place::kCharacters:
+      part.value = bytes_text(field, under);
+      break;
+    case Place::kError:
+      part.error = name_or(field, raw, "error");
+      break;
   }
 }
 

@@ -48,7 +48,7 @@ Split split(TimeNs time_ns) {
 }  // namespace
 
 std::string scaled_text(std::int64_t raw, Ratio scale) {
-  if (scale.denominator == 1 && scale.numerator == 1) return fmt::format("{}", raw);
+  if (scale.denominator == 1 && scale.numerator == 1) return fmt::format_int(raw).str();
   __extension__ typedef __int128 Wide;  // 64 bits times 32
   const Wide product = static_cast<Wide>(raw) * scale.numerator;
   const bool negative = product < 0;
@@ -115,8 +115,11 @@ std::string_view characters(Bytes bytes) {
 std::string bytes_text(const Field& field, Bytes bytes) {
   std::string text;
   if (field.kind != Kind::kText) {
+    constexpr std::string_view kDigits = "0123456789ABCDEF";
     for (const std::uint8_t byte : bytes) {
-      fmt::format_to(std::back_inserter(text), "{}{:02X}", text.empty() ? "" : " ", byte);
+      if (!text.empty()) text += ' ';
+      text += kDigits[byte >> 4U];
+      text += kDigits[byte & 0xFU];
     }
     return text.empty() ? "none" : text;
   }

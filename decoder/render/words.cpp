@@ -6,43 +6,54 @@
 #include <algorithm>
 #include <cctype>
 
+#include "decoder/render/key_table.hpp"
 #include "decoder/render/node.hpp"
 #include "decoder/render/value.hpp"
 
 namespace servotrace {
 namespace {
 
-// Numbers without names that are worth a word, and the word. Every other one is left to the fields.
+// How a field is spoken of, where its row does not say it.
 struct Spoken {
-  std::string_view key;
-  std::string_view word;
+  std::string_view word;  // of a number without a name; empty: the field says nothing
+  bool unless_zero = false;
 };
-constexpr Spoken kSpoken[] = {
-    {"alarm_main_echo", "alarm"}, {"alarm_main", "alarm"},    {"class", "class"},
-    {"instance", "instance"},     {"attribute", "attribute"}, {"service", "service"},
-    {"general_status", "status"}, {"vendor_id", "vendor"},    {"serial_number", "serial"},
-};
-// The same, where they are not 0.
-constexpr Spoken kSpokenUnlessZero[] = {
-    {"block_number", "block"},
-    {"executing_block_number", "block"},
-    {"prg", "channel"},
-    {"ack_prg", "channel"},
-};
-// Said by the node's name or by other words, or of no interest in a sentence.
-constexpr std::string_view kSilent[] = {
-    "mac_id",        "cr",         "sub_chk",      "fragmented",      "xid",        "master",
-    "physical_port", "response",   "command_axis", "response_axis",   "dir",        "prm_ope",
-    "prm_set_no",    "prm_get_no", "latch_sel1",   "latch_sel1_echo", "latch_sel2", "latch_sel2_echo",
-    "alarm_sub_echo"};
-
-template <std::size_t N>
-std::string_view word_of(const Spoken (&rows)[N], std::string_view key) {
-  for (const Spoken& row : rows) {
-    if (row.key == key) return row.word;
-  }
-  return {};
-}
+// Every other number without a name is left to the fields.
+constexpr KeyTable<Spoken, 32> kSpoken({
+    {"alarm_main_echo", {"alarm"}},
+    {"alarm_main", {"alarm"}},
+    {"class", {"class"}},
+    {"instance", {"instance"}},
+    {"attribute", {"attribute"}},
+    {"service", {"service"}},
+    {"general_status", {"status"}},
+    {"vendor_id", {"vendor"}},
+    {"serial_number", {"serial"}},
+    {"block_number", {"block", true}},
+    {"executing_block_number", {"block", true}},
+    {"prg", {"channel", true}},
+    {"ack_prg", {"channel", true}},
+    // Said by the node's name or by other words, or of no interest in a sentence.
+    {"mac_id", {}},
+    {"cr", {}},
+    {"sub_chk", {}},
+    {"fragmented", {}},
+    {"xid", {}},
+    {"master", {}},
+    {"physical_port", {}},
+    {"response", {}},
+    {"command_axis", {}},
+    {"response_axis", {}},
+    {"dir", {}},
+    {"prm_ope", {}},
+    {"prm_set_no", {}},
+    {"prm_get_no", {}},
+    {"latch_sel1", {}},
+    {"latch_sel1_echo", {}},
+    {"latch_sel2", {}},
+    {"latch_sel2_echo", {}},
+    {"alarm_sub_echo", {}},
+});
 
 }  // namespace
 
@@ -87,7 +98,8 @@ std::string quantity_text(const Field& field, std::int64_t raw) {
 bool is_flag(const Field& field) { return field.kind == Kind::kBool || field.width == 1; }
 
 std::string field_word(const Field& field, std::int64_t raw, Bytes under) {
-  if (field.reserved || std::find(std::begin(kSilent), std::end(kSilent), field.key) != std::end(kSilent)) return {};
+  const Spoken* const spoken = kSpoken.find(field.key);
+  if (field.reserved || (spoken != nullptr && spoken->word.empty())) return {};
   if (slot_of(field).width == 0) {
     return field.kind == Kind::kText && !under.empty()
                ? fmt::format("{} {}", short_label(field.label), bytes_text(field, under))
@@ -106,11 +118,8 @@ std::string field_word(const Field& field, std::int64_t raw, Bytes under) {
     return is_abbreviation(label) ? fmt::format("{} {}", label, name->name) : std::string(name->name);
   }
   if (name != nullptr) return name->name == "Normal" ? std::string() : std::string(name->name);
-  if (const std::string_view word = word_of(kSpoken, field.key); !word.empty())
-    return fmt::format("{} {}", word, value_text(field, raw));
-  if (const std::string_view word = word_of(kSpokenUnlessZero, field.key); !word.empty() && raw != 0)
-    return fmt::format("{} {}", word, value_text(field, raw));
-  return {};
+  if (spoken == nullptr || (spoken->unless_zero && raw == 0)) return {};
+  return fmt::format("{} {}", spoken->word, value_text(field, raw));
 }
 
 std::string lone_quantity(const Segment& segment, Bytes bytes) {
