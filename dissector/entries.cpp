@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "dissector/entries.hpp"
 
+#include "dissector/columns.hpp"
 #include "dissector/fields.hpp"
 #include "dissector/preferences.hpp"
 #include "dissector/session.hpp"
@@ -24,10 +25,13 @@ Handles& handles() {
 
 constexpr int kLinkTypeUser0 = 147;
 
+bool is_drawn(packet_info* pinfo) {
+  return p_get_proto_data(pinfo->pool, pinfo, servotrace_protocol_id(), 0) != nullptr;
+}
+
 void draw_once(packet_info* pinfo, proto_tree* tree, const Visit& frame) {
-  const int key = servotrace_protocol_id();
-  if (p_get_proto_data(pinfo->pool, pinfo, key, 0) != nullptr) return;
-  p_add_proto_data(pinfo->pool, pinfo, key, 0, GUINT_TO_POINTER(1));
+  if (is_drawn(pinfo)) return;
+  p_add_proto_data(pinfo->pool, pinfo, servotrace_protocol_id(), 0, GUINT_TO_POINTER(1));
   draw(pinfo, tree, frame);
   count_frame(pinfo, frame);
 }
@@ -57,9 +61,15 @@ WsBool dissect_can(tvbuff_t*, packet_info* pinfo, proto_tree* tree, void*) {
 
 // Sees every frame: CAN error frames, cut headers and what another dissector took.
 int dissect_after(tvbuff_t*, packet_info* pinfo, proto_tree* tree, void*) {
+  if (is_drawn(pinfo)) return 0;
   const Visit frame = visit(pinfo);
   if (frame.dissection->protocol != Protocol::kNone || !frame.findings.empty()) draw_once(pinfo, tree, frame);
   return 0;
+}
+
+void forget_file() {
+  reset_session();
+  reset_columns();
 }
 
 void change_table(const char* table, std::uint32_t before, std::uint32_t now) {
@@ -79,8 +89,8 @@ void register_entries() {
   all.dnet = register_dissector("dnet", dissect_dnet, protocol_id("dnet"));
   all.after = register_dissector("servotrace", dissect_after, servotrace_protocol_id());
   register_postdissector(all.after);
-  register_init_routine(reset_session);
-  register_cleanup_routine(reset_session);
+  register_init_routine(forget_file);
+  register_cleanup_routine(forget_file);
 }
 
 void apply_carriers() {

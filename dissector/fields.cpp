@@ -15,6 +15,16 @@
 #include "decoder/profiles/profiles.hpp"
 
 namespace servotrace::plugin {
+
+// The fields of one process value, one an axis or node.
+struct Signal {
+  std::string_view protocol;
+  std::string_view key;
+  const Field* row = nullptr;
+  bool scaled = false;
+  std::deque<int> fields;
+};
+
 namespace {
 
 constexpr std::size_t kAxes = 32;   // MAC IDs of a ring (SX-DSV02203 4-2-2)
@@ -40,25 +50,26 @@ struct ProtocolRow {
   LinkFields links;
 };
 
-// The fields of one process value, one an axis or node.
-struct Signal {
-  std::string_view protocol;
-  std::string_view key;
+struct DerivedPlace {
   const Field* row = nullptr;
-  bool scaled = false;
-  std::deque<int> fields;
+  std::string_view protocol;
+  DerivedIds ids;
+};
+
+struct LayoutPlace {
+  std::vector<int> fields;
+  std::vector<const Signal*> signals;
+  int subtree = -1;
 };
 
 struct Registry {
   Texts texts;
   std::deque<ProtocolRow> protocols;
   int servotrace = -1;
-  std::unordered_map<const Layout*, std::size_t> layout_index;
-  std::deque<std::vector<int>> layout_fields;
-  std::deque<int> layout_subtrees;
-  std::unordered_map<std::string_view, std::deque<std::pair<const Field*, int>>> derived;
+  std::unordered_map<const Layout*, LayoutPlace> layouts;
+  std::deque<DerivedPlace> derived;
+  std::unordered_multimap<const Field*, const DerivedPlace*> derived_of;
   std::deque<Signal> signals;
-  std::map<std::pair<std::string_view, std::string_view>, const Signal*> signal_of;  // by protocol and key
   FindingFields finding;
   Subtrees subtrees;
   std::deque<hf_register_info> rows;
@@ -222,22 +233,23 @@ void register_layouts() {
   Registry& all = registry();
   for (const Layout* layout : all_layouts()) {
     const ProtocolRow* const protocol = find_protocol(layout->protocol);
-    if (protocol == nullptr || all.layout_index.count(layout) != 0) continue;
-    all.layout_index.emplace(layout, all.layout_fields.size());
-    std::vector<int>& fields = all.layout_fields.emplace_back(layout->fields.size(), -1);
-    int& subtree = all.layout_subtrees.emplace_back(-1);
+    if (protocol == nullptr || all.layouts.count(layout) != 0) continue;
+    LayoutPlace& place = all.layouts[layout];
+    place.fields.assign(layout->fields.size(), -1);
+    place.signals.assign(layout->fields.size(), nullptr);
     for (std::size_t i = 0; i < layout->fields.size(); ++i) {
       const Field& field = layout->fields[i];
-      add_row(protocol->id, &fields[i], field, filter_name(layout->protocol, layout->key, field.key), false);
+      add_row(protocol->id, &place.fields[i], field, filter_name(layout->protocol, layout->key, field.key), false);
     }
-    int* const places[] = {&subtree};
+    int* const places[] = {&place.subtree};
     proto_register_subtree_array(places, 1);
   }
   for (const DerivedField& row : all_derived()) {
     const ProtocolRow* const protocol = find_protocol(row.protocol);
     if (protocol == nullptr) continue;
-    auto& place = all.derived[protocol->name].emplace_back(row.field, -1);
-    add_row(protocol->id, &place.second, *row.field, filter_name(row.protocol, {}, row.field->key), true);
+    DerivedPlace& place = all.derived.emplace_back(DerivedPlace{row.field, protocol->name, {}});
+    all.derived_of.emplace(row.field, &place);
+    add_row(protocol->id, &place.ids.field, *row.field, filter_name(row.protocol, {}, row.field->key), true);
   }
 }
 
@@ -262,7 +274,6 @@ void register_signals() {
   }
   for (const DerivedField& row : all_derived()) collect(row.protocol, *row.field);
   for (Signal& signal : all.signals) {
-    all.signal_of.emplace(std::pair{signal.protocol, signal.key}, &signal);
     const bool is_ring = signal.protocol == "rtex";
     const std::string word = is_ring ? "axis" : "node";
     for (std::size_t node = 0; node < (is_ring ? kAxes : kNodes); ++node) {
@@ -273,6 +284,22 @@ void register_signals() {
                 blurb_of(*signal.row));
     }
   }
+}
+
+const Signal* find_signal(std::string_view protocol, const Field& field) {
+  if (field.role != Role::kSignal) return nullptr;
+  for (const Signal& signal : registry().signals) {
+    if (signal.protocol == protocol && signal.key == field.key) return &signal;
+  }
+  return nullptr;
+}
+
+void place_signals() {
+  for (auto& [layout, place] : registry().layouts) {
+    for (std::size_t i = 0; i < place.signals.size(); ++i)
+      place.signals[i] = find_signal(layout->protocol, layout->fields[i]);
+  }
+  for (DerivedPlace& place : registry().derived) place.ids.signal = find_signal(place.protocol, *place.row);
 }
 
 void register_links(ProtocolRow& protocol) {
@@ -392,6 +419,7 @@ void register_fields() {
   register_protocols();
   register_layouts();
   register_signals();
+  place_signals();
   for (ProtocolRow& protocol : registry().protocols) {
     if (protocol.name == "rtex" || protocol.name == "dnet") register_links(protocol);
   }
@@ -413,30 +441,24 @@ const char* protocol_column(std::string_view protocol) {
 }
 
 LayoutFields fields_of(const Layout* layout) {
-  const Registry& all = registry();
-  const auto found = all.layout_index.find(layout);
-  if (found == all.layout_index.end()) return {};
-  return {all.layout_fields[found->second].data(), all.layout_subtrees[found->second]};
+  const auto& all = registry().layouts;
+  const auto found = all.find(layout);
+  if (found == all.end()) return {};
+  return {found->second.fields.data(), found->second.signals.data(), found->second.subtree};
 }
 
-int field_of(const Derived& derived) {
-  const Registry& all = registry();
-  const auto found = all.derived.find(derived.protocol);
-  if (found == all.derived.end()) return -1;
-  for (const auto& [field, id] : found->second) {
-    if (field == derived.field) return id;
+DerivedIds ids_of(const Derived& derived) {
+  const auto [begin, end] = registry().derived_of.equal_range(derived.field);
+  for (auto entry = begin; entry != end; ++entry) {
+    if (entry->second->protocol == derived.protocol) return entry->second->ids;
   }
-  return -1;
+  return {};
 }
 
-AxisSignal axis_signal(std::string_view protocol, const Field& field, std::int16_t mac_id) {
-  if (field.role != Role::kSignal || mac_id < 0) return {};
-  const auto found = registry().signal_of.find({protocol, field.key});
-  if (found == registry().signal_of.end()) return {};
-  const Signal& signal = *found->second;
-  const auto node = static_cast<std::size_t>(mac_id);
-  if (node >= signal.fields.size()) return {};
-  return {signal.fields[node], signal.scaled};
+AxisSignal axis_signal(const Signal* signal, std::int16_t mac_id) {
+  const auto node = static_cast<std::size_t>(mac_id);  // kNoMacId: out of range
+  if (signal == nullptr || node >= signal->fields.size()) return {};
+  return {signal->fields[node], signal->scaled};
 }
 
 const LinkFields& link_fields(Protocol protocol) {

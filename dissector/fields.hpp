@@ -20,22 +20,29 @@ int servotrace_protocol_id();
 // Names for the protocol column.
 const char* protocol_column(std::string_view protocol);
 
+// Graphs need a field of each axis and node: `rtex.axis3.actual_position`, `ns310.node5.current_position` for every
+// process value. Its values are numbers in the field's unit.
+struct Signal;
+struct AxisSignal {
+  int field = -1;       // -1: none, the MAC ID is out of range
+  bool scaled = false;  // a floating-point field: the row has a scale
+};
+// `signal` may be nullptr: the field is no process value.
+AxisSignal axis_signal(const Signal* signal, std::int16_t mac_id);
+
 // The fields of a layout in the order of its rows; nullptr for a layout all_layouts() does not list.
 struct LayoutFields {
   const int* fields = nullptr;
+  const Signal* const* signals = nullptr;
   int subtree = -1;
 };
 LayoutFields fields_of(const Layout* layout);
-// -1 for a field that all_derived() does not list.
-int field_of(const Derived& derived);
 
-// Graphs need a field of each axis and node: `rtex.axis3.actual_position`, `ns310.node5.current_position` for every
-// process value. -1 where the field is none, or the MAC ID out of range. Its values are numbers in the field's unit.
-struct AxisSignal {
-  int field = -1;
-  bool scaled = false;  // a floating-point field: the row has a scale
+struct DerivedIds {
+  int field = -1;  // -1: all_derived() does not list it
+  const Signal* signal = nullptr;
 };
-AxisSignal axis_signal(std::string_view protocol, const Field& field, std::int16_t mac_id);
+DerivedIds ids_of(const Derived& derived);
 
 // Links between frames, a set for each of the protocols that have nodes.
 struct LinkFields {

@@ -5,6 +5,7 @@
 #include <deque>
 #include <exception>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "decoder/pipeline/pipeline.hpp"
@@ -22,6 +23,7 @@ struct Session {
   FrameStore store;
   Dissection pushed;                                                            // as the pipeline fills it
   Dissection shown;                                                             // as the store gives it back
+  Dissection behind;                                                            // likewise, of another frame
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> interfaces;  // section and number to dense number
   std::vector<std::string> interface_names;  // by dense number; empty where there is none
   std::deque<std::pair<BusRef, std::string>> bus_names;
@@ -70,7 +72,9 @@ std::uint32_t resolution_ns(const wtap_rec& rec) {
   return result;
 }
 
-void push(Session& self, const packet_info& pinfo, Bytes bytes, std::uint32_t original_length) noexcept {
+// The frame's shape; nothing where it could not be kept.
+std::optional<std::uint32_t> push(Session& self, const packet_info& pinfo, Bytes bytes, std::uint32_t original_length,
+                                  FrameStore::Found& found) noexcept {
   const wtap_rec& rec = *pinfo.rec;
   try {
     const std::uint32_t section = (rec.presence_flags & WTAP_HAS_SECTION_NUMBER) != 0 ? rec.section_number : 0;
@@ -95,10 +99,11 @@ void push(Session& self, const packet_info& pinfo, Bytes bytes, std::uint32_t or
     frame.has_time = (rec.presence_flags & WTAP_HAS_TS) != 0;
     const auto known = static_cast<std::uint32_t>(self.pipeline.findings().all().size());
     self.pipeline.push(frame, &self.pushed);
-    self.store.put(pinfo.num, self.pushed,
-                   {known, static_cast<std::uint32_t>(self.pipeline.findings().all().size()) - known});
+    found = {known, static_cast<std::uint32_t>(self.pipeline.findings().all().size()) - known};
+    return self.store.put(pinfo.num, self.pushed, found);
   } catch (const std::exception&) {
     self.failed = true;
+    return {};
   }
 }
 
@@ -123,14 +128,16 @@ Visit visit(packet_info* pinfo) {
   // A frame that a read filter drops leaves its number to the next one, so the number alone does not tell them apart.
   const bool is_new =
       pinfo->num > self.last_number || (pinfo->num == self.last_number && pinfo->fd->file_off != self.last_offset);
+  FrameStore::Found found;
+  std::optional<std::uint32_t> shape;
   if (!pinfo->fd->visited && is_new && !self.failed) {
     self.last_number = pinfo->num;
     self.last_offset = pinfo->fd->file_off;
-    push(self, *pinfo, bytes, tvb_reported_length(tvb));
+    shape = push(self, *pinfo, bytes, tvb_reported_length(tvb), found);
   }
-  FrameStore::Found found;
-  self.store.get(pinfo->num, bytes, self.shown, found);
-  result.dissection = &self.shown;
+  // What was pushed just now need not be unpacked again.
+  result.dissection = shape ? &self.pushed : &self.shown;
+  result.shape = shape ? *shape : self.store.get(pinfo->num, bytes, self.shown, found);
   const std::span<const Finding> all = self.pipeline.findings().all();
   if (found.first <= all.size() && found.count <= all.size() - found.first)
     result.findings = all.subspan(found.first, found.count);
@@ -149,8 +156,8 @@ NextOfNode next_of_node(std::uint32_t number) {
   if (self == nullptr) return {};
   const std::uint32_t next = self->store.next_of(number);
   FrameStore::Found found;
-  if (next == 0 || !self->store.get(next, {}, self->pushed, found)) return {};
-  for (const Link& link : self->pushed.links) {
+  if (next == 0 || self->store.get(next, {}, self->behind, found) == FrameStore::kNoShape) return {};
+  for (const Link& link : self->behind.links) {
     if (link.kind == LinkKind::kPreviousOfNode && link.frame == number) return {next, link.node};
   }
   return {};

@@ -18,6 +18,7 @@ struct Visit {
   std::span<const Finding> findings;       // of this frame, also those no plugin shows
   tvbuff_t* tvb = nullptr;                 // the whole frame; nullptr where Wireshark has none
   std::uint32_t number = 0;
+  std::uint32_t shape = FrameStore::kNoShape;  // the same for frames that look alike
 };
 
 // Pushes the frame into the pipeline where this is its first visit, and draws on what is kept where it is not. Every

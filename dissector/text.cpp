@@ -32,17 +32,13 @@ const char* unit_text(wmem_allocator_t* pool, const Field& field, std::int64_t v
   return pool_text(pool, text + ")");
 }
 
-const char* node_text(wmem_allocator_t* pool, const NodeRef& node) {
-  if (node.mac_id == kNoMacId) {
-    if (node.bus.kind != BusKind::kNone) return pool_text(pool, bus_text(node.bus));
-    return "capture";
-  }
-  const Settings* const settings = session_settings();
-  return pool_text(
-      pool, servotrace::node_text(node, settings == nullptr ? std::string_view() : configured_name(*settings, node)));
-}
-
 namespace {
+
+std::string text_of(const NodeRef& node) {
+  if (node.mac_id == kNoMacId) return node.bus.kind != BusKind::kNone ? bus_text(node.bus) : "capture";
+  const Settings* const settings = session_settings();
+  return servotrace::node_text(node, settings == nullptr ? std::string_view() : configured_name(*settings, node));
+}
 
 // The value of a derived field of DeviceNet, or -1.
 std::int64_t derived_value(const Dissection& dissection, std::string_view key) {
@@ -52,26 +48,26 @@ std::int64_t derived_value(const Dissection& dissection, std::string_view key) {
   return -1;
 }
 
-const char* mac_text(wmem_allocator_t* pool, const Dissection& dissection, std::int64_t mac_id, bool is_master) {
-  if (mac_id < 0) return nullptr;
-  const NodeRef node{
-      .bus = dissection.bus, .protocol = Protocol::kDevicenet, .mac_id = static_cast<std::int16_t>(mac_id)};
-  const char* const text = node_text(pool, node);
-  return is_master ? wmem_strdup_printf(pool, "master, %s", text) : text;
+std::string mac_text(const Dissection& dissection, std::int64_t mac_id, bool is_master) {
+  if (mac_id < 0) return {};
+  const std::string text =
+      text_of({.bus = dissection.bus, .protocol = Protocol::kDevicenet, .mac_id = static_cast<std::int16_t>(mac_id)});
+  return is_master ? "master, " + text : text;
 }
 
 }  // namespace
 
-Ends ends_text(wmem_allocator_t* pool, const Dissection& dissection) {
+const char* node_text(wmem_allocator_t* pool, const NodeRef& node) { return pool_text(pool, text_of(node)); }
+
+Ends ends_text(const Dissection& dissection) {
   const bool command = dissection.direction == Direction::kCommand;
   const bool response = dissection.direction == Direction::kResponse;
   Ends ends;
   if (dissection.protocol == Protocol::kDevicenet) {
-    ends.source = mac_text(pool, dissection, derived_value(dissection, "source"), command);
-    ends.destination = mac_text(pool, dissection, derived_value(dissection, "destination"), response);
+    ends.source = mac_text(dissection, derived_value(dissection, "source"), command);
+    ends.destination = mac_text(dissection, derived_value(dissection, "destination"), response);
     // A Duplicate MAC ID check is for every node of the bus.
-    if (ends.source != nullptr && ends.destination == nullptr)
-      ends.destination = pool_text(pool, bus_text(dissection.bus));
+    if (!ends.source.empty() && ends.destination.empty()) ends.destination = bus_text(dissection.bus);
     return ends;
   }
   if (dissection.protocol != Protocol::kRtex || (!command && !response)) return ends;
@@ -84,18 +80,11 @@ Ends ends_text(wmem_allocator_t* pool, const Dissection& dissection) {
     drives = segment.node;
   }
   if (several) drives.mac_id = kNoMacId;
-  const char* const text = node_text(pool, drives);
-  ends.source = command ? "master" : text;
-  ends.destination = command ? text : "master";
+  ends.source = command ? "master" : text_of(drives);
+  ends.destination = command ? text_of(drives) : "master";
   return ends;
 }
 
-const char* node_sentence(wmem_allocator_t* pool, const Dissection& dissection, const NodeRef& node) {
-  return pool_text(pool, sentence_of(dissection, node, session_settings()));
-}
-
-const char* info_text(wmem_allocator_t* pool, const Dissection& dissection) {
-  return pool_text(pool, sentence(dissection, session_settings()));
-}
+std::string info_text(const Dissection& dissection) { return sentence(dissection, session_settings()); }
 
 }  // namespace servotrace::plugin

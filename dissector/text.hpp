@@ -3,6 +3,8 @@
 // they are made with are gone before Wireshark is called again.
 #pragma once
 
+#include <string>
+
 #include "decoder/findings/finding.hpp"
 #include "decoder/pipeline/dissection.hpp"
 #include "dissector/ws.hpp"
@@ -21,17 +23,14 @@ const char* unit_text(wmem_allocator_t* pool, const Field& field, std::int64_t v
 // "axis 3 (X)", "ring0", "can1", "capture".
 const char* node_text(wmem_allocator_t* pool, const NodeRef& node);
 
-// Who sent the frame and to whom, for the address columns: "master", "axis 3 (X)", "ring0".
+// Who sent the frame and to whom, for the address columns: "master", "axis 3 (X)", "ring0". Empty: not known.
 struct Ends {
-  const char* source = nullptr;  // nullptr: not known
-  const char* destination = nullptr;
+  std::string source;
+  std::string destination;
 };
-Ends ends_text(wmem_allocator_t* pool, const Dissection& dissection);
-
-// What the frame says of one node, "axis 3 (X) command: CP 128000".
-const char* node_sentence(wmem_allocator_t* pool, const Dissection& dissection, const NodeRef& node);
+Ends ends_text(const Dissection& dissection);
 
 // The info column: a sentence. Empty where nothing was recognised.
-const char* info_text(wmem_allocator_t* pool, const Dissection& dissection);
+std::string info_text(const Dissection& dissection);
 
 }  // namespace servotrace::plugin

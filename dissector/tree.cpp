@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "dissector/tree.hpp"
 
-#include <cstring>
+#include <algorithm>
 #include <type_traits>
 
 #include "decoder/core/slot.hpp"
 #include "decoder/findings/catalogue.hpp"
+#include "dissector/columns.hpp"
 #include "dissector/fields.hpp"
 #include "dissector/text.hpp"
 
@@ -24,11 +25,16 @@ struct Canvas {
   const Visit* frame = nullptr;
   tvbuff_t* reassembled = nullptr;
   proto_tree* tree = nullptr;  // nullptr: nobody looks
+  bool whole = false;          // everything is drawn; else what a filter or a statistic names
   proto_tree* main = nullptr;  // of the frame's own protocol
   proto_item* main_item = nullptr;
   SmallVector<NodePlace, 80> nodes;
   proto_item* segment_items[decltype(Dissection::segments)::capacity()] = {};
 };
+
+bool wants(const Canvas& canvas, int id) {
+  return canvas.whole || (id >= 0 && proto_field_is_referenced(canvas.tree, id) != 0);
+}
 
 bool same_node(const NodeRef& a, const NodeRef& b) {
   return a.bus == b.bus && a.protocol == b.protocol && a.mac_id == b.mac_id && a.place == b.place;
@@ -50,34 +56,45 @@ tvbuff_t* tvb_of(const Canvas& canvas, const Segment& segment) {
   return segment.buffer == Buffer::kFrame ? canvas.frame->tvb : canvas.reassembled;
 }
 
+// Where a value lies.
+struct Place {
+  tvbuff_t* tvb = nullptr;
+  int offset = 0;
+  int length = 0;
+};
+
 // Hidden: the row itself shows the value. For graphs and filters.
-void draw_axis_signal(proto_tree* tree, std::string_view protocol, std::int16_t mac_id, const Field& field,
-                      std::int64_t value, tvbuff_t* tvb, int offset, int length) {
-  const AxisSignal signal = axis_signal(protocol, field, mac_id);
-  if (signal.field < 0) return;
+void draw_axis_signal(const Canvas& canvas, proto_tree* tree, const Signal* of, std::int16_t mac_id, const Field& field,
+                      std::int64_t value, const Place& at) {
+  const AxisSignal signal = axis_signal(of, mac_id);
+  if (signal.field < 0 || !wants(canvas, signal.field)) return;
   const double scaled = static_cast<double>(value) * field.scale.numerator / field.scale.denominator;
-  proto_item_set_hidden(signal.scaled ? proto_tree_add_double(tree, signal.field, tvb, offset, length, scaled)
-                                      : proto_tree_add_int64(tree, signal.field, tvb, offset, length, value));
+  proto_item_set_hidden(signal.scaled ? proto_tree_add_double(tree, signal.field, at.tvb, at.offset, at.length, scaled)
+                                      : proto_tree_add_int64(tree, signal.field, at.tvb, at.offset, at.length, value));
+}
+
+unsigned encoding_of(const Field& field) {
+  if (field.kind == Kind::kText) return unsigned{ENC_ASCII} | unsigned{ENC_NA};
+  if (field.kind == Kind::kBytes) return ENC_NA;
+  return field.order == ByteOrder::kBig ? unsigned{ENC_BIG_ENDIAN} : unsigned{ENC_LITTLE_ENDIAN};
 }
 
 // Returns the item, nullptr where nothing was drawn.
-proto_item* draw_field(const Canvas& canvas, proto_tree* tree, const Segment& segment, Bytes bytes, const Field& field,
-                       int id) {
+proto_item* draw_field(const Canvas& canvas, proto_tree* tree, const Segment& segment, Bytes bytes,
+                       const LayoutFields& ids, std::size_t row) {
+  const Field& field = segment.layout->fields[row];
   const std::size_t size = field.width == 0 ? bytes.size() - field.first_byte() : field.byte_count();
   if (size == 0) return nullptr;
   const bool is_number = field.kind != Kind::kBytes && field.kind != Kind::kText;
   const std::int64_t value = is_number ? read(slot_of(field), bytes) : 0;
   if (field.reserved && value == 0) return nullptr;
-  const unsigned encoding = field.kind == Kind::kText        ? unsigned{ENC_ASCII} | unsigned{ENC_NA}
-                            : field.kind == Kind::kBytes     ? unsigned{ENC_NA}
-                            : field.order == ByteOrder::kBig ? unsigned{ENC_BIG_ENDIAN}
-                                                             : unsigned{ENC_LITTLE_ENDIAN};
-  proto_item* const item =
-      proto_tree_add_item(tree, id, tvb_of(canvas, segment), static_cast<int>(segment.offset + field.first_byte()),
-                          static_cast<int>(size), encoding);
+  const Place at{tvb_of(canvas, segment), static_cast<int>(segment.offset + field.first_byte()),
+                 static_cast<int>(size)};
+  proto_item* item = nullptr;
+  if (wants(canvas, ids.fields[row]))
+    item = proto_tree_add_item(tree, ids.fields[row], at.tvb, at.offset, at.length, encoding_of(field));
   if (!is_number) return item;
-  draw_axis_signal(tree, segment.layout->protocol, segment.node.mac_id, field, value, tvb_of(canvas, segment),
-                   static_cast<int>(segment.offset + field.first_byte()), static_cast<int>(size));
+  draw_axis_signal(canvas, tree, ids.signals[row], segment.node.mac_id, field, value, at);
   if (!is_visible(tree)) return item;
   const char* const unit = unit_text(canvas.pinfo->pool, field, value);
   if (*unit != '\0') proto_item_append_text(item, "%s", unit);
@@ -90,22 +107,22 @@ proto_item* draw_field(const Canvas& canvas, proto_tree* tree, const Segment& se
 void draw_segment(Canvas& canvas, proto_tree* parent, std::size_t index) {
   const Dissection& dissection = *canvas.frame->dissection;
   const Segment& segment = dissection.segments[index];
-  const LayoutFields fields = fields_of(segment.layout);
+  const LayoutFields ids = fields_of(segment.layout);
   const Bytes bytes = dissection.bytes(segment);
   tvbuff_t* const tvb = tvb_of(canvas, segment);
-  if (fields.fields == nullptr || tvb == nullptr) return;
+  if (ids.fields == nullptr || tvb == nullptr) return;
   if (segment.layout->fields.size() == 1 && !segment.guessed) {  // its only row says it all
-    canvas.segment_items[index] =
-        draw_field(canvas, parent, segment, bytes, segment.layout->fields[0], fields.fields[0]);
+    canvas.segment_items[index] = draw_field(canvas, parent, segment, bytes, ids, 0);
     return;
   }
-  proto_item* item = nullptr;
-  proto_tree* const tree = proto_tree_add_subtree_format(
-      parent, tvb, static_cast<int>(segment.offset), static_cast<int>(segment.length), fields.subtree, &item, "%s%s",
-      pool_text(canvas.pinfo->pool, segment.layout->title), segment.guessed ? " (guessed)" : "");
-  canvas.segment_items[index] = item;
-  for (std::size_t i = 0; i < segment.layout->fields.size(); ++i)
-    draw_field(canvas, tree, segment, bytes, segment.layout->fields[i], fields.fields[i]);
+  proto_tree* tree = parent;
+  if (canvas.whole) {
+    tree = proto_tree_add_subtree_format(parent, tvb, static_cast<int>(segment.offset),
+                                         static_cast<int>(segment.length), ids.subtree, &canvas.segment_items[index],
+                                         "%s%s", pool_text(canvas.pinfo->pool, segment.layout->title),
+                                         segment.guessed ? " (guessed)" : "");
+  }
+  for (std::size_t i = 0; i < segment.layout->fields.size(); ++i) draw_field(canvas, tree, segment, bytes, ids, i);
 }
 
 // How far the run of segments from `index` on goes that `same` holds together, and the frame bytes under it.
@@ -130,7 +147,7 @@ std::size_t draw_node(Canvas& canvas, proto_tree* parent, std::size_t index, std
   const Dissection& dissection = *canvas.frame->dissection;
   const Segment& first = dissection.segments[index];
   const bool whole_record = first.node.mac_id == kNoMacId && first.layout->key == "record";
-  if (first.node.protocol != Protocol::kRtex || whole_record) {
+  if (first.node.protocol != Protocol::kRtex || whole_record || !canvas.whole) {
     draw_segment(canvas, parent, index);
     return index + 1;
   }
@@ -163,23 +180,26 @@ void draw_protocols(Canvas& canvas) {
       canvas.main = tree;
       canvas.main_item = item;
     }
-    while (index < end) index = draw_node(canvas, tree, index, end);
+    // Where nobody asks for the protocol, nobody asks for one of its fields either.
+    const bool wanted = wants(canvas, id);
+    while (wanted && index < end) index = draw_node(canvas, tree, index, end);
+    index = end;
   }
-  if (canvas.main == nullptr && dissection.protocol != Protocol::kNone) {
-    const int id = protocol_id(dissection.protocol == Protocol::kRtex ? "rtex" : "dnet");
-    canvas.main_item = proto_tree_add_item(canvas.tree, id, canvas.frame->tvb, 0, -1, ENC_NA);
-    canvas.main = proto_item_add_subtree(canvas.main_item, subtrees().protocol);
-  }
+  if (canvas.main != nullptr || dissection.protocol == Protocol::kNone) return;
+  const int id = protocol_id(dissection.protocol == Protocol::kRtex ? "rtex" : "dnet");
+  canvas.main_item = proto_tree_add_item(canvas.tree, id, canvas.frame->tvb, 0, -1, ENC_NA);
+  canvas.main = proto_item_add_subtree(canvas.main_item, subtrees().protocol);
 }
 
 void draw_derived(const Canvas& canvas, const Derived& derived) {
-  const int id = field_of(derived);
+  const DerivedIds ids = ids_of(derived);
+  const int id = ids.field;
   proto_tree* const tree = tree_of(canvas, derived.node);
   if (id < 0 || tree == nullptr) return;
   tvbuff_t* const tvb = canvas.frame->tvb;
   proto_item* item = nullptr;
-  if (derived.field->role == Role::kSignal)
-    draw_axis_signal(tree, derived.protocol, derived.node.mac_id, *derived.field, derived.value, tvb, 0, 0);
+  draw_axis_signal(canvas, tree, ids.signal, derived.node.mac_id, *derived.field, derived.value, {tvb, 0, 0});
+  if (!wants(canvas, id)) return;
   const bool wide = derived.field->width == 0 || derived.field->byte_count() > 4;
   switch (derived.field->kind) {
     case Kind::kText:
@@ -210,11 +230,12 @@ void draw_derived(const Canvas& canvas, const Derived& derived) {
 }
 
 void draw_frame_link(const Canvas& canvas, proto_tree* tree, int id, std::uint64_t number) {
-  if (number == 0) return;
+  if (number == 0 || !wants(canvas, id)) return;
   proto_item_set_generated(proto_tree_add_uint(tree, id, canvas.frame->tvb, 0, 0, static_cast<std::uint32_t>(number)));
 }
 
 void draw_time(const Canvas& canvas, proto_tree* tree, int id, DurationNs after_ns) {
+  if (!wants(canvas, id)) return;
   const nstime_t time = {static_cast<time_t>(after_ns / kSecondNs), static_cast<int>(after_ns % kSecondNs)};
   proto_item_set_generated(proto_tree_add_time(tree, id, canvas.frame->tvb, 0, 0, &time));
 }
@@ -244,7 +265,7 @@ void draw_links(const Canvas& canvas) {
     }
   }
   // Known once the frames behind it were read, and sought only where somebody looks.
-  if (canvas.pinfo->fd->visited && proto_field_is_referenced(canvas.tree, fields.next_in)) {
+  if (canvas.pinfo->fd->visited && wants(canvas, fields.next_in)) {
     const NextOfNode next = next_of_node(canvas.frame->number);
     draw_frame_link(canvas, tree_of(canvas, next.node), fields.next_in, next.frame);
   }
@@ -367,39 +388,33 @@ void draw_findings(Canvas& canvas) {
   }
 }
 
-void set_address(address& place, const char* text) {
-  if (text == nullptr) return;
-  ::set_address(&place, AT_STRINGZ, static_cast<int>(std::strlen(text)) + 1, text);
-}
-
-void draw_columns(const Canvas& canvas) {
-  const Dissection& dissection = *canvas.frame->dissection;
-  column_info* const columns = canvas.pinfo->cinfo;
-  if (dissection.protocol == Protocol::kNone || columns == nullptr || !col_get_writable(columns, COL_INFO)) return;
-  std::string_view protocol = dissection.protocol == Protocol::kRtex ? "rtex" : "dnet";
-  for (const Segment& segment : dissection.segments) {
-    if (segment.layout->protocol != "rtex" && segment.layout->protocol != "dnet") protocol = segment.layout->protocol;
-  }
-  col_set_str(columns, COL_PROTOCOL, protocol_column(protocol));
-  const Ends ends = ends_text(canvas.pinfo->pool, dissection);
-  set_address(canvas.pinfo->src, ends.source);
-  set_address(canvas.pinfo->dst, ends.destination);
-  const char* const info = info_text(canvas.pinfo->pool, dissection);
-  if (*info != '\0') col_add_str(columns, COL_INFO, info);
-}
-
 static_assert(std::is_trivially_destructible_v<Canvas>);
+
+// One for all frames: its lists are long, and cleared sooner than made.
+Canvas& cleared_canvas(packet_info* pinfo, proto_tree* tree, const Visit& frame) {
+  static Canvas canvas;
+  canvas.pinfo = pinfo;
+  canvas.frame = &frame;
+  canvas.reassembled = nullptr;
+  canvas.tree = tree;
+  // Findings hang on what they are about, so a frame that has one is drawn whole.
+  canvas.whole = is_visible(tree) || (tree != nullptr && !frame.findings.empty());
+  canvas.main = nullptr;
+  canvas.main_item = nullptr;
+  canvas.nodes.clear();
+  std::fill_n(canvas.segment_items, frame.dissection->segments.size(), nullptr);
+  return canvas;
+}
 
 }  // namespace
 
 void draw(packet_info* pinfo, proto_tree* tree, const Visit& frame) {
-  Canvas canvas;
-  canvas.pinfo = pinfo;
-  canvas.frame = &frame;
-  canvas.tree = tree;
-  draw_columns(canvas);
+  draw_columns(pinfo, frame);
+  if (tree == nullptr && frame.findings.empty()) return;
+  const Dissection& dissection = *frame.dissection;
+  Canvas& canvas = cleared_canvas(pinfo, tree, frame);
   if (tree != nullptr) {
-    const Bytes reassembled = frame.dissection->reassembled;
+    const Bytes reassembled = dissection.reassembled;
     if (!reassembled.empty()) {
       // A copy that lives as long as what is drawn here: a window of this packet outlasts a reload, the store does not.
       const auto size = static_cast<std::uint32_t>(reassembled.size());
@@ -408,8 +423,8 @@ void draw(packet_info* pinfo, proto_tree* tree, const Visit& frame) {
       add_new_data_source(pinfo, canvas.reassembled, "Reassembled message");
     }
     draw_protocols(canvas);
-    for (const Derived& derived : frame.dissection->derived) draw_derived(canvas, derived);
-    if (frame.dissection->protocol != Protocol::kNone) draw_links(canvas);
+    for (const Derived& derived : dissection.derived) draw_derived(canvas, derived);
+    if (dissection.protocol != Protocol::kNone) draw_links(canvas);
   }
   draw_findings(canvas);
 }
