@@ -23,6 +23,15 @@ class Durations {
     sum_ns_ += static_cast<double>(duration_ns);
     ++buckets_[bucket(static_cast<std::uint64_t>(duration_ns))];
   }
+  // As if each of the other's had been added here.
+  void merge(const Durations& other) {
+    if (other.count_ == 0) return;
+    minimum_ns_ = count_ == 0 ? other.minimum_ns_ : std::min(minimum_ns_, other.minimum_ns_);
+    maximum_ns_ = std::max(maximum_ns_, other.maximum_ns_);
+    count_ += other.count_;
+    sum_ns_ += other.sum_ns_;  // whole numbers far below 2^53
+    for (std::size_t i = 0; i < buckets_.size(); ++i) buckets_[i] += other.buckets_[i];
+  }
   std::uint64_t count() const { return count_; }
   DurationNs minimum_ns() const { return minimum_ns_; }
   DurationNs maximum_ns() const { return maximum_ns_; }

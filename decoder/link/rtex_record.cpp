@@ -123,7 +123,7 @@ std::uint32_t record_length(Bytes record) {
   const auto wide = static_cast<std::uint32_t>(read(slot(kRecord, "wide_nodes"), record));
   if (nodes == 0 || nodes > kMaxBlocks) return 0;
   const std::uint32_t mask = nodes == 32 ? 0xFFFFFFFFU : (1U << nodes) - 1U;
-  const std::uint32_t blocks = nodes + static_cast<std::uint32_t>(std::popcount(wide & mask));
+  const std::uint32_t blocks = nodes + (wide == 0 ? 0U : static_cast<std::uint32_t>(std::popcount(wide & mask)));
   if (blocks > kMaxBlocks) return 0;
   return static_cast<std::uint32_t>(read(slot(kRecord, "header_length"), record)) +
          blocks * static_cast<std::uint32_t>(kBlockSize);

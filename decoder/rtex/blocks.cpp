@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: MIT
 // A node's blocks: what changed since the one before, and which events that is.
+#include <utility>
+
 #include "decoder/rtex/engine.hpp"
 #include "decoder/rtex/tracking.hpp"
 
 namespace servotrace::rtex {
 namespace {
 
-std::array<std::uint64_t, 4> raw_of(Bytes block) {
-  std::array<std::uint64_t, 4> raw = {};
-  for (std::size_t word = 0; word < block.size() / 8; ++word) raw[word] = load_le64(block, 8 * word);
-  return raw;
-}
-
-bool is_zero(const std::array<std::uint64_t, 4>& raw) { return (raw[0] | raw[1] | raw[2] | raw[3]) == 0; }
+bool is_zero(const BlockWords& raw) { return (raw[0] | raw[1] | raw[2] | raw[3]) == 0; }
 
 }  // namespace
 
@@ -43,12 +39,15 @@ void Engine::name_node(Node& node, std::uint8_t mac_id, bool actual) {
 }
 
 void Engine::push_command(const Context& context, Node& node, Bytes block, std::uint32_t block_at, BlockSize size) {
-  ++ring_.awake;
+  ++ring_.of_record.awake;
   wake(node);
-  const bool same = same_but_counter(block, node.command_raw, size);
-  const auto raw = raw_of(block);
+  const BlockWords before = node.command_raw;
+  const BlockWords raw = words_of(block);
   node.command_raw = raw;
-  if (!node.command_written && is_zero(raw)) return;  // not yet written
+  if (!node.command_written && is_zero(raw)) {  // not yet written
+    ++ring_.of_record.telling;
+    return;
+  }
   node.command_written = true;
   node.comparable = node.have_command && node.command_chain;
   if (node.comparable) {
@@ -86,7 +85,9 @@ void Engine::push_command(const Context& context, Node& node, Bytes block, std::
     if (channel.id == Channel::kSub && !command.wide) continue;
     scene.channel = &channel;
     if (!command.is_nop()) run(scene, kActiveCommand);
+    PassedRows* const passed = std::exchange(scene.passed, nullptr);  // a step is none of what stays
     step_command(scene, channel);
+    scene.passed = passed;
     show_handshake(scene);
   }
   scene.channel = nullptr;
@@ -102,19 +103,24 @@ void Engine::push_command(const Context& context, Node& node, Bytes block, std::
     node.servo_on_sent = command.servo_on;
     node.servo_on_known = true;
   }
-  end_full_command(node, same);
+  end_full_command(node, before, raw);
 }
 
 void Engine::push_response(const Context& context, Node& node, Bytes block, std::uint32_t block_at, BlockSize size) {
-  ++ring_.awake;
+  ++ring_.of_record.awake;
   wake(node);
-  const bool same = same_but_counter(block, node.response_raw, size);
-  const auto raw = raw_of(block);
-  const bool identical = node.have_response && raw == node.response_raw;
-  if (node.ignore_stale && raw == node.response_raw) return;  // what a drive wrote before its reset
-  node.ignore_stale = false;
-  node.response_raw = raw;
-  if (!node.response_written && is_zero(raw)) return;  // not yet written
+  const BlockWords before = node.response_raw;
+  const BlockWords raw = words_of(block);
+  const bool identical = node.have_response && raw == before;
+  const bool stale = node.ignore_stale && raw == before;  // what a drive wrote before its reset
+  if (!stale) {
+    node.ignore_stale = false;
+    node.response_raw = raw;
+  }
+  if (stale || (!node.response_written && is_zero(raw))) {  // or not yet written
+    ++ring_.of_record.telling;
+    return;
+  }
   node.response_written = true;
   node.zero_response = is_zero(raw);
   node.response_comparable = node.have_response && node.response_chain;
@@ -151,15 +157,19 @@ void Engine::push_response(const Context& context, Node& node, Bytes block, std:
   Events events = kResponseBlock;
   if (response.cr && !node.status_undefined) events |= kStatus;
   run(scene, events);
+  scene.passed = nullptr;
   judge_echo(scene, node.identical_response);
   for (ChannelState& channel : node.channels) {
     if (channel.id == Channel::kSub && !response.wide) continue;
     scene.channel = &channel;
-    if (response.cr) step_response(scene, channel);
+    if (!response.cr) continue;
+    const ResponseView& last = node.previous_response;
+    judge_answer(scene, channel,
+                 node.response_comparable && scene.answer().is_again(scene.is_sub() ? last.sub : last.main));
   }
   scene.channel = nullptr;
   if (response.cr) track_status(scene);
-  end_full_response(node, same);
+  end_full_response(node, before, raw);
 }
 
 }  // namespace servotrace::rtex

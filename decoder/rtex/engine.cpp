@@ -18,6 +18,7 @@ struct Entry {
   std::uint8_t row = 0;
   Scope scope = Scope::kNode;
   bool needs_every_cycle = false;
+  bool steady = false;  // its passing is noted for the short cut
 };
 
 // Of whom something happened.
@@ -37,6 +38,7 @@ constexpr bool runs_at(Scope scope, Level level, unsigned event) {
   return level == Level::kNode || (level == Level::kChannel && (1U << event) != kActiveCommand);
 }
 constexpr RuleId kFirstRule = rule("RX101");
+constexpr bool has_event(Events events, unsigned event) { return (events >> event & 1U) != 0; }
 consteval Dispatch make_dispatch(bool steady_too) {
   Dispatch table{};
   std::size_t next = 0;
@@ -45,14 +47,16 @@ consteval Dispatch make_dispatch(bool steady_too) {
       table.first[event * kLevels + level] = static_cast<std::uint16_t>(next);
       for (std::size_t row = 0; row < kRules.size(); ++row) {
         const RtexRule& rule = kRules[row];
-        if ((rule.events >> event & 1U) == 0 || !runs_at(rule.scope, static_cast<Level>(level), event)) continue;
-        if (!steady_too && is_steady(rule.row.id)) continue;
+        if (!has_event(rule.events, event) || !runs_at(rule.scope, static_cast<Level>(level), event)) continue;
+        const bool steady = !has_event(unsteady_events(rule.row.id, rule.events), event);
+        if (!steady_too && steady) continue;
         table.entries[next++] = {rule.check,
                                  rule.events & ((1U << event) - 1U),
                                  static_cast<RuleId>(static_cast<std::size_t>(kFirstRule) + row),
                                  static_cast<std::uint8_t>(row),
                                  rule.scope,
-                                 rule.row.needs_every_cycle};
+                                 rule.row.needs_every_cycle,
+                                 steady};
         table.events |= 1U << event;
       }
     }
@@ -63,6 +67,16 @@ consteval Dispatch make_dispatch(bool steady_too) {
 constexpr Dispatch kDispatch = make_dispatch(true);
 constexpr Dispatch kUnsteady = make_dispatch(false);  // what a quiet block is judged by
 static_assert(kRules.size() < 256);
+
+// What may change in a quiet block is judged at its node.
+static_assert([] {
+  for (unsigned event = 0; event < kEventCount; ++event) {
+    const std::size_t list = event * kLevels + static_cast<std::size_t>(Level::kChannel);
+    const bool of_block = has_event(kActiveCommand | kAnswer, event);
+    if (of_block && kUnsteady.first[list] != kUnsteady.first[list + 1]) return false;
+  }
+  return (kUnsteady.events & (kCommandBlock | kResponseBlock)) == 0;
+}());
 
 // Who may have episodes, by scope.
 using Owners = std::array<OwnerId, 3>;
@@ -86,7 +100,9 @@ template <const Dispatch& table, std::size_t place>
   findings.checked(kEntry.rule);
   if (outcome != Outcome::kPassed) return;
   findings.calm(owner, kEntry.rule);
-  if (scene.passed != nullptr) scene.passed->push_back(kEntry.row);
+  if constexpr (kEntry.steady) {
+    if (scene.passed != nullptr) scene.passed->push_back(kEntry.row);
+  }
 }
 
 // The entries of an event and level, one behind the other.
@@ -138,33 +154,14 @@ RecordHeader read_header(Bytes record) {
 
 void Engine::run(Scene& scene, Events events) { run_rows<kDispatch>(scene, events); }
 
-// Where some rule has to see every block, its node has to be looked at.
-bool Engine::can_rest() {
-  constexpr Events kBlocks = kCommandBlock | kActiveCommand | kResponseBlock | kStatus | kAnswer | kCommandRecord;
-  return (kUnsteady.events & kBlocks) == 0;
-}
-
 // The checks of a quiet block whose outcome may change all the same.
-void Engine::judge_unsteady(const Context& context, Node& node, std::uint32_t block_at, Events events) {
-  if ((kUnsteady.events & events) == 0) return;
-  Scene scene = ring_scene(context);
-  scene.node = &node;
-  scene.block_at = block_at;
-  node.quiet.raised = false;
-  run_rows<kUnsteady>(scene, events & ~kAnswer);
-  for (ChannelState& channel : node.channels) {
-    if (channel.id == Channel::kSub && !node.wide) continue;
-    scene.channel = &channel;
-    run_rows<kUnsteady>(scene, events & (kActiveCommand | kAnswer));
-  }
-  if (node.quiet.raised) wake(node);
-}
+void Engine::run_unsteady(Scene& scene, Events events) { run_rows<kUnsteady>(scene, events); }
 
-// The rules of a command record. Where every block of it was quiet, the steady ones find what they found before.
+// The rules of a command record. Where no block of it tells them anything, the steady ones find what they found before.
 void Engine::judge_command_record(const Context& context) {
   Scene scene = ring_scene(context);
   ring_.record_raised = false;
-  if (ring_.awake == 0 && ring_.record_quiet) {
+  if (ring_.of_record.telling == 0 && ring_.record_quiet) {
     for (const std::uint8_t row : ring_.record_passed) ring_.findings.checked(id_of(row));
     run_rows<kUnsteady>(scene, kCommandRecord);
     return;
@@ -172,7 +169,7 @@ void Engine::judge_command_record(const Context& context) {
   ring_.record_passed.clear();
   scene.passed = &ring_.record_passed;
   run_rows<kDispatch>(scene, kCommandRecord);
-  ring_.record_quiet = ring_.awake == 0 && !ring_.record_raised;
+  ring_.record_quiet = ring_.of_record.telling == 0 && !ring_.record_raised;
 }
 
 // For what the engine itself finds: the same as a check that raised.
@@ -212,7 +209,7 @@ void Engine::push(const Context& context, const RecordPlace& place) {
     take_command_record(context, header, all_nop);
   }
   const Bytes blocks = record.subspan(header.header_length);
-  ring_.awake = 0;
+  ring_.of_record = {};
   bool answered = order == Order::kNext && goes_on_resting(context, header.response, blocks);
   if (!answered) {
     answered = push_blocks(context, place, header, record, order);
@@ -225,6 +222,7 @@ void Engine::push(const Context& context, const RecordPlace& place) {
     ring_.last_response_frame = context.frame.number;
     if (!ring_.running && answered && ring_.cycle_has_command && !ring_.awaiting_start)
       ring_.running = ring_.had_run = true;
+    if (ring_.of_record.telling != 0) ring_.record_quiet = false;
     end_response_record(context);
   } else {
     ring_.last_command = {context.frame.number, context.frame.time_ns, ring_.cycle};

@@ -80,6 +80,7 @@ class Engine {
   // handshake.cpp
   void step_command(Scene& scene, ChannelState& channel);
   void begin_hold(Scene& scene, ChannelState& channel);
+  void judge_answer(Scene& scene, ChannelState& channel, bool same);
   void step_response(Scene& scene, ChannelState& channel);
   void judge_withheld(Scene& scene, ChannelState& channel);
   void judge_deadlines(const Context& context);
@@ -87,30 +88,50 @@ class Engine {
   // engine.cpp
   void report(Scene& scene, RuleId rule, OwnerId owner, Report given);
   void run(Scene& scene, Events events);
-  void judge_unsteady(const Context& context, Node& node, std::uint32_t block_at, Events events);
+  static void run_unsteady(Scene& scene, Events events);
   void judge_command_record(const Context& context);
 
-  // quiet.cpp: blocks that say nothing new. The quick ones, of armed nodes, return false, and have changed nothing,
-  // where the block is to be judged in full.
+  // quick.cpp: blocks that say nothing new, of armed nodes. False, and nothing was changed: the block is to be judged
+  // in full.
   bool quick_command(const Context& context, Node& node, Bytes block, std::uint32_t block_at);
   bool quick_response(const Context& context, Node& node, Bytes block, std::uint32_t block_at);
-  static void follow_command(Node& node, std::uint64_t first_word, std::uint64_t frame);
-  static void follow_response(Node& node, std::uint64_t first_word, std::uint64_t frame, std::int64_t cycle);
+  static void follow_counter(Node& node, std::uint8_t now, bool moves, std::uint64_t frame);
+  void step_quickly(Scene& scene, ChannelState& channel);
+  void answer_quickly(Scene& scene, ChannelState& channel, bool same);
+  Scene quick_scene(const Context& context, Node& node, std::uint32_t block_at);
+  void note_waits(const Node& node);
+  void end_quick(Node& node);
+
+  // quiet.cpp: when a node is quiet
   void wake(Node& node);
   void wake_all();
-  static void end_full_command(Node& node, bool same);
-  void end_full_response(Node& node, bool same);
+  void count_quiet(Node& node);
+  void count_answers(SteadyAnswers& answers);
+  void end_full_command(Node& node, const BlockWords& before, const BlockWords& now);
+  void end_full_response(Node& node, const BlockWords& before, const BlockWords& now);
+  void note_news(const Node& node, const BlockWords& before, const BlockWords& now);
   bool ring_is_settled() const;
-  static bool same_but_counter(Bytes block, const std::array<std::uint64_t, 4>& raw, BlockSize size);
 
-  // rest.cpp: records of a ring of which every block is quiet
+  // rest.cpp: records of a ring that repeat with a period
+  void collect_rest(const Context& context, const RecordHeader& header, Bytes record);
+  void end_collected_cycle(const Context& context, const RecordHeader& header);
+  void forget_collected();
+  bool every_node_is_settled() const;
+  bool is_where_it_was(TimeNs now_ns) const;
+  DurationNs patience_ns() const;
+  void begin_rest(const Context& context, const RecordHeader& header);
+  bool goes_on_resting(const Context& context, bool response, Bytes blocks);
+  bool shows_news(const Context& context) const;
+  void end_rest();
+  void judge_period(std::uint64_t first, std::uint64_t periods);
+  void judge_again(std::uint64_t from, std::uint64_t to, std::uint64_t measured_from);
+  void judge_image(bool response, std::uint64_t cycle);
+  void add_time(Durations& times, const Moment& start, const Moment& now);
+
+  // glance.cpp: of them, those that say nothing to the rules of the ring, either
   bool glances(const Context& context, const RecordPlace& place);
   void begin_glances(const RecordHeader& header, Bytes record);
   void end_glances();
-  bool goes_on_resting(const Context& context, bool response, Bytes blocks);
-  void collect_rest(const Context& context, const RecordHeader& header, Bytes record);
-  void end_rest();
-  static bool can_rest();
 
   Ring ring_;
   Rest rest_;

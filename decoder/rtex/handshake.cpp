@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The non-cyclic handshake of a channel: what is held, what the drive still works on, what it proves.
+#include <algorithm>
+
 #include "decoder/rtex/engine.hpp"
 #include "decoder/rtex/tracking.hpp"
 
@@ -90,6 +92,8 @@ void Engine::step_command(Scene& scene, ChannelState& channel) {
       }
     }
   }
+  if (row.action != HandshakeStep::kNone || row.to != channel.state)
+    node.quiet.answers[channel.id == Channel::kSub ? 1 : 0].same = 0;
   channel.state = row.to;
   if (begins) {
     begin_hold(scene, channel);
@@ -98,6 +102,18 @@ void Engine::step_command(Scene& scene, ChannelState& channel) {
     channel.hold.part = part;
     channel.hold.not_started = true;
   }
+}
+
+// `same`: the answer is the one before, but for a monitored value.
+void Engine::judge_answer(Scene& scene, ChannelState& channel, bool same) {
+  SteadyAnswers& answers = scene.node->quiet.answers[channel.id == Channel::kSub ? 1 : 0];
+  count_answers(answers);
+  answers.passed.clear();
+  scene.passed = &answers.passed;
+  step_response(scene, channel);
+  scene.passed = nullptr;
+  const bool steady = same && is_settled(channel) && !scene.node->quiet.raised && answers.passed.dropped() == 0;
+  answers.same = steady ? std::min<std::uint8_t>(answers.same + 1U, kSameAnswers) : std::uint8_t{0};
 }
 
 void Engine::step_response(Scene& scene, ChannelState& channel) {
@@ -140,7 +156,7 @@ void Engine::step_response(Scene& scene, ChannelState& channel) {
         hold.echo = scene.now;
         if (hold.seen_start) {
           if (Durations* const times = duration_of(node.echo_times, answer.echo); times != nullptr)
-            times->add(elapsed_ns(hold.start.time_ns, scene.now.time_ns));
+            add_time(*times, hold.start, scene.now);
         }
       }
       hold.refused = answer.error;
@@ -153,7 +169,7 @@ void Engine::step_response(Scene& scene, ChannelState& channel) {
         events |= kCompleted;
         if (hold.seen_start) {
           if (Durations* const times = duration_of(node.done_times, answer.echo); times != nullptr)
-            times->add(elapsed_ns(hold.start.time_ns, scene.now.time_ns));
+            add_time(*times, hold.start, scene.now);
         }
       }
       events |= kDeadline;
@@ -187,7 +203,7 @@ void Engine::judge_withheld(Scene& scene, ChannelState& channel) {
 
 // Time went on: on every record, for every channel that waits for something.
 void Engine::judge_deadlines(const Context& context) {
-  if (!context.frame.has_time || ring_.awake == 0) return;  // what is quiet waits for nothing
+  if (!context.frame.has_time || ring_.of_record.awake == 0) return;  // what is quiet waits for nothing
   const Limits& limits = ring_.settings.limits;
   for (const auto& entry : ring_.all()) {
     if (entry == nullptr) continue;
@@ -205,6 +221,7 @@ void Engine::judge_deadlines(const Context& context) {
                {.arguments = {withheld.before, withheld.part.code},
                 .related = {withheld.at.frame, 0},
                 .basis = {BasisKind::kAssumed, 0}});
+        forget_collected();
       }
       if (channel.process.busy && !has_no_busy_limit(channel.process) && channel.state == Handshake::kStandard &&
           elapsed_ns(channel.process.since.time_ns, scene.now.time_ns) > busy_limit_ns(channel.process, limits)) {

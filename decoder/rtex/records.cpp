@@ -161,6 +161,8 @@ void Engine::gap() {
 }
 
 void Engine::restart_comparisons() {
+  end_rest();
+  forget_collected();
   ring_.missing_responses = 0;
   ring_.last_command_follows = false;
   ring_.timeout_pending = false;

@@ -29,6 +29,7 @@ struct Moment {
   std::uint64_t frame = 0;
   TimeNs time_ns = 0;
   std::int64_t cycle = 0;  // communication cycles since the ring's first record
+  bool operator==(const Moment&) const = default;
 };
 
 // A non-cyclic command the master holds.
@@ -50,6 +51,7 @@ struct Hold {
   bool position_known = false;     // the actual position when it started
   std::int32_t position = 0;
   bool not_started = false;  // RX301, RX303: the drive does not start it
+  bool operator==(const Hold&) const = default;
 };
 
 // What the drive is still working on (the catalogue's "Busy").
@@ -58,6 +60,7 @@ struct Process {
   std::uint8_t code = 0;
   std::uint16_t type_code = 0;
   Moment since;
+  bool operator==(const Process&) const = default;
 };
 
 // RX301 or RX305 on the assumption of the A4N-compatible start mode: the drive may prove it wrong.
@@ -67,6 +70,7 @@ struct Withheld {
   CommandPart part;
   std::uint8_t before = 0;  // the code held until then
   Moment at;
+  bool operator==(const Withheld&) const = default;
 };
 
 struct ChannelState {
@@ -78,6 +82,7 @@ struct ChannelState {
   Process process;
   Withheld withheld;
   bool next_not_started = false;  // set by the check that found that the drive does not start the command
+  bool operator==(const ChannelState&) const = default;
 };
 
 // Update_Counter of a node.
@@ -104,6 +109,7 @@ struct CounterState {
   bool echo_pending = false;                           // RX205 waits: the response may be a stale one
   Moment echo_at;
   std::uint8_t echo_wanted = 0, echo_seen = 0;
+  bool operator==(const CounterState&) const = default;
 };
 
 // The profile operation the drive last accepted.
@@ -126,6 +132,7 @@ struct Following {
   std::int32_t base_command = 0, base_position = 0;
   bool proven = false;
   std::uint64_t frame = 0;
+  bool operator==(const Following&) const = default;
 };
 
 // RX705: an active drive inhibit input, and what the commands do about it.
@@ -133,10 +140,14 @@ struct InhibitWatch {
   int direction = 0;        // +1 POT, -1 NOT, 0 neither or both
   std::uint64_t frame = 0;  // of the response that showed it
   Basis basis;
-  bool stopped = false;        // the command has stopped or turned round since
-  std::int32_t reference = 0;  // CP: the command position farthest from the input since
-  std::int64_t changed = 0;    // CP: the cycle of the last change
-  bool toward = false;         // the command at hand goes toward the input
+  bool stopped = false;                               // the command has stopped or turned round since
+  std::int32_t reference = 0;                         // CP: the command position farthest from the input since
+  std::int64_t changed = 0;                           // CP: the cycle of the last change
+  bool toward = false;                                // the command at hand goes toward the input
+  bool operator==(const InhibitWatch& other) const {  // the basis goes with the frame
+    return direction == other.direction && frame == other.frame && stopped == other.stopped &&
+           reference == other.reference && changed == other.changed && toward == other.toward;
+  }
 };
 
 // RX706: the command position while the servo is off.
@@ -148,6 +159,7 @@ struct OffWatch {
   std::uint32_t moves = 0;  // away from the actual position since
   Moment since;
   bool moves_now = false;
+  bool operator==(const OffWatch&) const = default;
 };
 
 // RX521, RX525: stop bits and a motion without an end.
@@ -160,6 +172,7 @@ struct ProfileWatch {
 struct EmergencyInput {
   bool known = false;
   bool active = false;
+  bool operator==(const EmergencyInput&) const = default;
 };
 
 struct AlarmState {
@@ -208,7 +221,7 @@ struct Node {
   bool command_chain = false;     // no gap since `command`
   bool comparable = false;        // and of the record before, without a gap
   CommandView command, previous;  // `previous`: valid where comparable
-  std::array<std::uint64_t, 4> command_raw = {};
+  BlockWords command_raw = {};
   bool mode_known = false;
   bool mode_commanded = false;  // in this run
   bool servo_on_sent = false;   // the last Servo_On outside NOP
@@ -228,7 +241,7 @@ struct Node {
   bool response_chain = false;       // no gap since `response`
   bool response_comparable = false;  // and of the cycle before, without a gap
   ResponseView response, previous_response;
-  std::array<std::uint64_t, 4> response_raw = {};
+  BlockWords response_raw = {};
   std::uint64_t response_frame = 0;
   std::int64_t response_cycle = 0;
   bool answered = false;  // C/R = 1 seen in this run
@@ -355,8 +368,12 @@ struct Ring {
   Durations cycle_times;
   Durations cycle_deviations;  // each interval against the communication cycle, once that is known
 
-  unsigned awake = 0;         // blocks of this record judged in full
-  bool record_quiet = false;  // the rules of the last command record passed, of blocks that are all quiet or as before
+  struct OfRecord {
+    unsigned awake = 0;     // blocks judged in full
+    unsigned telling = 0;   // of them, those with more news than of a monitor command: the ring's rules look at them
+    bool restless = false;  // a word that moves an axis or is measured is another one, or a quiet block raised
+  } of_record;
+  bool record_quiet = false;  // the rules of the last command record passed, and no block has told anything since
   bool record_raised = false;
   PassedRows record_passed;
 

@@ -28,7 +28,7 @@ Learnt mode_of(const Ring& ring) {
 void Engine::count_timing(const Context& context) {
   TimingCount& timing = ring_.timing;
   timing.verdict = TimingCount::Verdict::kNone;
-  if (ring_.awake == 0 && timing.known && ring_.record_quiet) {  // every block is as it was
+  if (ring_.of_record.telling == 0 && timing.known && ring_.record_quiet) {  // every header is as it was
     step_timing(context, timing.value);
     if (!ring_.record_quiet) end_rest();  // the rules of the record look at the nodes
     return;

@@ -161,6 +161,11 @@ void track_answer(Scene& scene, bool completed) {
   }
 }
 
+void watch_values(Scene& scene) {
+  scene.node->emergency = emergency_input(*scene.node);
+  watch_following(scene);
+}
+
 void track_status(Scene& scene) {
   Node& node = *scene.node;
   if (node.status_undefined) return;
@@ -174,8 +179,7 @@ void track_status(Scene& scene) {
   } else if (node.limited_since.frame == 0) {
     node.limited_since = scene.now;
   }
-  node.emergency = emergency_input(node);
-  watch_following(scene);
+  watch_values(scene);
   state.known = true;
   state.alarm = node.response.alarm;
   state.warning = node.response.warning;

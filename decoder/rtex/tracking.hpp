@@ -19,6 +19,8 @@ void track_answer(Scene& scene, bool completed);
 void track_alarm_code(Scene& scene);
 // After the checks of a response block.
 void track_status(Scene& scene);
+// The part of it that follows what is measured.
+void watch_values(Scene& scene);
 // Puts the status and Response_Data1 of `last` into `response`, zero where there is none.
 void keep_status(ResponseView& response, const ResponseView& last, bool known);
 

@@ -6,6 +6,17 @@
 
 namespace servotrace::rtex {
 
+// A block of 16 or 32 bytes; of 16 the last two words are 0.
+using BlockWords = std::array<std::uint64_t, 4>;
+inline BlockWords words_of(Bytes block) {
+  BlockWords words = {load_le64(block, 0), load_le64(block, 8), 0, 0};
+  if (block.size() == kWideBlockSize) {
+    words[2] = load_le64(block, 16);
+    words[3] = load_le64(block, 24);
+  }
+  return words;
+}
+
 // The non-cyclic part of a command, main or sub channel.
 struct CommandPart {
   std::uint8_t code = 0;
@@ -21,6 +32,7 @@ struct CommandPart {
     return type_code == other.type_code && index == other.index && setting_data == other.setting_data &&
            position == other.position;
   }
+  bool operator==(const CommandPart&) const = default;
 };
 
 struct CommandView {
@@ -60,7 +72,13 @@ struct ResponsePart {
   bool psl = false, nsl = false;
   std::uint32_t data = 0;  // bytes 12-15; sub channel: 20-23
 
+  bool operator==(const ResponsePart&) const = default;
   bool answers() const { return echo != 0 && !error; }
+  // But for a monitored value.
+  bool is_again(ResponsePart other) const {
+    if (is(NonCyclic::kMonitor)) other.data = data;
+    return *this == other;
+  }
   bool is(NonCyclic code) const { return answers() && echo == static_cast<std::uint8_t>(code); }
 };
 

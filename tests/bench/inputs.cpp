@@ -50,7 +50,7 @@ struct Stretch {
 Stretch find_stretch(const std::vector<simulator::SimulatedFrame>& frames) {
   constexpr std::size_t kJoint = 64;                      // records that must be the same at both ends
   constexpr std::size_t kStart = 512;                     // until the ring runs and every servo is on
-  constexpr std::size_t kLongest = 2 * 1024, kStep = 16;  // whole periods of every counter
+  constexpr std::size_t kLongest = 8 * 1024, kStep = 16;  // whole periods of every counter
   for (std::size_t length = kLongest; length > 2 * kJoint; length -= kStep) {
     if (frames.size() < kStart + length + 2 * kJoint) continue;
     for (std::size_t at = frames.size() - length - 2 * kJoint; at > kStart; at -= 2) {
@@ -92,13 +92,19 @@ simulator::Simulation make(std::string name, std::size_t frames) {
     if (simulation.frames.size() > frames) simulation.frames.resize(frames);
     return simulation;
   }
-  constexpr std::string_view kHandshake = "_handshake";
-  const bool handshakes = name.ends_with(kHandshake);
-  if (handshakes) name.resize(name.size() - kHandshake.size());
+  const auto take_ending = [&name](std::string_view ending) {
+    if (!name.ends_with(ending)) return false;
+    name.resize(name.size() - ending.size());
+    return true;
+  };
+  const bool handshakes = take_ending("_handshake");
+  const bool moving = take_ending("_moving");
   for (const Kind& kind : kKinds) {
     if (name != kind.name) continue;
     RtexTraffic traffic = kind.traffic;
     traffic.handshakes = handshakes;
+    traffic.moving = moving;
+    if (moving) traffic.cycles *= 4;  // its period is longer
     simulator::Simulation simulation = make_traffic(rtex_traffic(traffic));
     append_repeated(simulation, frames);
     return simulation;

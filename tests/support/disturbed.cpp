@@ -54,6 +54,10 @@ void pause(Frames& frames, std::size_t at, std::mt19937& random) {
   const auto by_ns = static_cast<DurationNs>(random() % 4'000'000);
   for (std::size_t i = at; i < frames.size(); ++i) frames[i].time_ns += by_ns;
 }
+// The times of records waver from here on.
+void jitter(Frames& frames, std::size_t at, std::mt19937& random) {
+  for (std::size_t i = at; i < frames.size(); ++i) frames[i].time_ns += static_cast<DurationNs>(random() % 15'000);
+}
 void cut(Frames& frames, std::size_t at, std::mt19937& random) {
   frames[at].bytes.resize(frames[at].bytes.size() - 1 - random() % 16);
 }
@@ -64,7 +68,7 @@ void blank(Frames& frames, std::size_t at, std::mt19937&) {
 }  // namespace
 
 simulator::Simulation disturbed(const simulator::Simulation& whole, std::uint32_t seed) {
-  const Disturbance all[] = {flip_bit, hold_bit, lose, repeat, go_stale, pause, cut, blank};
+  const Disturbance all[] = {flip_bit, hold_bit, lose, repeat, go_stale, pause, jitter, cut, blank};
   std::mt19937 random(seed);
   simulator::Simulation result = whole;
   for (int i = 0; i < 4; ++i) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
+
 #include "decoder/findings/catalogue.hpp"
 #include "tests/support/scenarios.hpp"
 
@@ -46,6 +48,44 @@ std::vector<std::string> texts(const Summary& summary) {
   return all;
 }
 
+std::vector<std::string> texts(const Dissection& dissection) {
+  std::vector<std::string> all;
+  const auto text_of = [](const NodeRef& node) {
+    return " mac " + std::to_string(node.mac_id) + " channel " + std::to_string(static_cast<int>(node.channel));
+  };
+  for (const Derived& derived : dissection.derived) {
+    all.push_back(std::string(derived.field->key) + " = " + std::to_string(derived.value) + std::string(derived.text) +
+                  text_of(derived.node));
+  }
+  for (const Link& link : dissection.links) {
+    all.push_back("link " + std::to_string(static_cast<int>(link.kind)) + " to " + std::to_string(link.frame) +
+                  " after " + std::to_string(link.after_ns) + text_of(link.node));
+  }
+  return all;
+}
+
+// What is shown of each frame beside its bytes.
+void expect_same_shown(const simulator::Simulation& simulation, Settings settings) {
+  settings.judge_every_block = true;
+  Pipeline full(settings);
+  settings.judge_every_block = false;
+  Pipeline quick(settings);
+  const auto expected = std::make_unique<Dissection>();
+  const auto found = std::make_unique<Dissection>();
+  std::uint64_t number = 0;
+  for (const simulator::SimulatedFrame& frame : simulation.frames) {
+    const RawFrame raw{.number = ++number,
+                       .time_ns = frame.time_ns,
+                       .link_type = simulation.interfaces[frame.interface_id].link_type,
+                       .interface_id = frame.interface_id,
+                       .bytes = frame.bytes,
+                       .original_length = frame.original_length};
+    full.push(raw, expected.get());
+    quick.push(raw, found.get());
+    ASSERT_EQ(texts(*found), texts(*expected)) << "frame " << number;
+  }
+}
+
 }  // namespace
 
 void expect_same(const simulator::Simulation& simulation, const Settings& settings) {
@@ -61,6 +101,7 @@ void expect_same(const simulator::Simulation& simulation, const Settings& settin
     EXPECT_EQ(quick.findings().total(rule), full.findings().total(rule)) << rule_row(rule).id;
   }
   EXPECT_EQ(texts(quick.summary()), texts(full.summary()));
+  expect_same_shown(simulation, settings);
 }
 
 }  // namespace servotrace::test

@@ -8,7 +8,7 @@
 
 namespace servotrace::test {
 
-// Expects the same findings, the same counts of every rule and the same statistics.
+// Expects the same findings, counts of every rule and statistics, and the same values and links beside each frame.
 void expect_same(const simulator::Simulation& simulation, const Settings& settings = {});
 
 }  // namespace servotrace::test

@@ -6,6 +6,25 @@
 #include "replay/capture/pcapng_writer.hpp"
 
 namespace servotrace::test {
+namespace {
+
+void append_moves(std::string& text, const RtexTraffic& traffic, const std::string& axis) {
+  // Ways of some hundred cycles: speed and acceleration follow from the cycle, so that a short period repeats.
+  const int speed = static_cast<int>(4e9 / 60 / traffic.cycle_us);
+  const int acceleration = static_cast<int>(speed * 1e6 / 30 / traffic.cycle_us);
+  for (int i = 0; i < traffic.cycles / 300; ++i) {
+    text += "[[ring.step]]\ndo = \"move\"\nto = " + std::to_string(i % 2 == 0 ? 16'000 : 0) +
+            "\nspeed = " + std::to_string(speed) + "\nacceleration = " + std::to_string(acceleration) + "\n" + axis;
+  }
+}
+
+void append_monitors(std::string& text, const RtexTraffic& traffic, const std::string& axis) {
+  constexpr int kCyclesOfOne = 4;  // command, echo, back, echo
+  for (int i = 0; i < traffic.cycles / kCyclesOfOne; ++i)
+    text += "[[ring.step]]\ndo = \"monitor\"\ntype = " + std::to_string(1 + i % 2) + "\n" + axis;
+}
+
+}  // namespace
 
 std::string rtex_traffic(const RtexTraffic& traffic) {
   std::string text = "title = \"traffic\"\n[[ring]]\ncycle_us = ";
@@ -19,10 +38,13 @@ std::string rtex_traffic(const RtexTraffic& traffic) {
   }
   const auto step = [&text](const std::string& keys) { text += "[[ring.step]]\n" + keys; };
   step("do = \"servo_on\"\n");
-  if (traffic.handshakes) {
-    constexpr int kCyclesOfOne = 4;  // command, echo, back, echo
-    for (int i = 0; i < traffic.cycles / kCyclesOfOne; ++i)
-      step("do = \"monitor\"\ntype = " + std::to_string(1 + i % 2) + "\n");
+  if (traffic.handshakes && traffic.moving) {  // the axes by turns
+    for (int i = 0; i < traffic.axes; ++i)
+      (i % 2 == 0 ? append_moves : append_monitors)(text, traffic, "axis = " + std::to_string(i) + "\n");
+  } else if (traffic.handshakes) {
+    append_monitors(text, traffic, {});
+  } else if (traffic.moving) {
+    append_moves(text, traffic, {});
   } else {
     step("do = \"wait\"\ncycles = " + std::to_string(traffic.cycles) + "\n");
   }

@@ -16,6 +16,7 @@ struct RtexTraffic {
   bool wide = false;        // 32-byte blocks
   int cycles = 1000;        // communication cycles after the start, about
   bool handshakes = false;  // a non-cyclic command on every axis all the time
+  bool moving = false;      // every axis goes to and fro in cyclic position mode; both: the axes by turns
 };
 
 // Scenarios as text. Nothing in them is wrong.

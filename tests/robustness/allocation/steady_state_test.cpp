@@ -52,6 +52,11 @@ TEST(Allocation, NoneAFrameInRingsFullOfHandshakes) {
   expect_no_allocation(rtex_traffic({.axes = 2, .cycle_us = 500, .cycles = 1500, .handshakes = true}), 2000, "2 axes");
 }
 
+TEST(Allocation, NoneAFrameInRingsThatMove) {
+  expect_no_allocation(rtex_traffic({.axes = 3, .cycle_us = 500, .cycles = 1500, .handshakes = true, .moving = true}),
+                       2000, "3 axes");
+}
+
 TEST(Allocation, NoneAFrameInTheReader) {
   const simulator::Simulation simulation = make_traffic(rtex_traffic({.axes = 2, .cycles = 1000}));
   const std::filesystem::path path = std::filesystem::temp_directory_path() / "servotrace-allocation-test.pcapng";

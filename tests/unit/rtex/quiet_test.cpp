@@ -26,20 +26,64 @@ TEST(QuietBlocks, QuietTrafficSaysTheSame) {
   expect_same(make_traffic(rtex_traffic({.axes = 2, .cycle_us = 500, .cycles = 600, .handshakes = true})));
 }
 
-TEST(QuietBlocks, DisturbedTrafficSaysTheSame) {
-  const RtexTraffic kinds[] = {
-      {.axes = 2, .cycle_us = 83.333, .cycles = 500},
-      {.axes = 2, .cycle_us = 166.667, .cycles = 500},
-      {.axes = 2, .cycle_us = 1000, .wide = true, .cycles = 500},
-  };
-  for (const RtexTraffic& kind : kinds) {
-    const simulator::Simulation whole = make_traffic(rtex_traffic(kind));
-    for (std::uint32_t seed = 0; seed < 64; ++seed) {
-      SCOPED_TRACE("cycle " + std::to_string(kind.cycle_us) + ", seed " + std::to_string(seed));
-      expect_same(disturbed(whole, seed));
-      if (HasFailure()) return;
-    }
+TEST(QuietBlocks, MovingTrafficSaysTheSame) {
+  expect_same(make_traffic(rtex_traffic({.axes = 2, .cycle_us = 83.333, .cycles = 600, .moving = true})));
+  expect_same(make_traffic(rtex_traffic({.axes = 2, .cycle_us = 1000, .wide = true, .cycles = 600, .moving = true})));
+  expect_same(
+      make_traffic(rtex_traffic({.axes = 3, .cycle_us = 500, .cycles = 600, .handshakes = true, .moving = true})));
+}
+
+TEST(QuietBlocks, HandshakesInEveryCycleSayTheSame) {
+  expect_same(make_traffic(rtex_traffic({.axes = 1, .cycle_us = 83.333, .cycles = 1200, .handshakes = true})));
+  expect_same(make_traffic(rtex_traffic({.axes = 5, .cycle_us = 166.667, .cycles = 1200, .handshakes = true})));
+  expect_same(
+      make_traffic(rtex_traffic({.axes = 3, .cycle_us = 1000, .wide = true, .cycles = 1200, .handshakes = true})));
+}
+
+// The rules that read what moves and what is measured have something to say.
+Settings talkative() {
+  constexpr auto pr = [](int of_class, int number) { return static_cast<std::uint16_t>(of_class << 8 | number); };
+  Settings settings;
+  settings.rtex.axes.resize(2);
+  settings.rtex.axes[0].max_speed = 40'000;
+  settings.rtex.axes[0].parameters = {{pr(5, 4), 0}, {pr(7, 23), 0}, {pr(7, 29), 7}, {pr(7, 35), 0}};
+  settings.rtex.axes[1].mac_id = 1;
+  settings.rtex.axes[1].parameters = {{pr(5, 4), 0}, {pr(7, 23), 0}, {pr(7, 31), 0x21}, {pr(7, 36), 0}};
+  return settings;
+}
+
+void expect_same_when_disturbed(const RtexTraffic& kind, std::uint32_t seeds, const Settings& settings = {}) {
+  const simulator::Simulation whole = make_traffic(rtex_traffic(kind));
+  for (std::uint32_t seed = 0; seed < seeds; ++seed) {
+    SCOPED_TRACE("cycle " + std::to_string(kind.cycle_us) + ", seed " + std::to_string(seed));
+    expect_same(disturbed(whole, seed), settings);
+    if (testing::Test::HasFailure()) return;
   }
+}
+
+TEST(QuietBlocks, DisturbedTrafficSaysTheSame) {
+  expect_same_when_disturbed({.axes = 2, .cycle_us = 83.333, .cycles = 500}, 72);
+  expect_same_when_disturbed({.axes = 2, .cycle_us = 166.667, .cycles = 500}, 72);
+  expect_same_when_disturbed({.axes = 2, .cycle_us = 1000, .wide = true, .cycles = 500}, 72);
+}
+
+TEST(QuietBlocks, DisturbedMovingTrafficSaysTheSame) {
+  expect_same_when_disturbed({.axes = 2, .cycle_us = 83.333, .cycles = 500, .moving = true}, 72);
+  expect_same_when_disturbed({.axes = 2, .cycle_us = 1000, .wide = true, .cycles = 500, .moving = true}, 72);
+  expect_same_when_disturbed({.axes = 2, .cycle_us = 500, .cycles = 500, .handshakes = true, .moving = true}, 72);
+}
+
+TEST(QuietBlocks, DisturbedMovingTrafficOfKnownDrivesSaysTheSame) {
+  expect_same_when_disturbed({.axes = 2, .cycle_us = 1000, .cycles = 500, .moving = true}, 72, talkative());
+  expect_same_when_disturbed({.axes = 2, .cycle_us = 1000, .wide = true, .cycles = 500, .moving = true}, 72,
+                             talkative());
+  expect_same_when_disturbed({.axes = 2, .cycle_us = 83.333, .cycles = 500}, 72, talkative());
+}
+
+TEST(QuietBlocks, DisturbedHandshakesSayTheSame) {
+  expect_same_when_disturbed({.axes = 2, .cycle_us = 83.333, .cycles = 800, .handshakes = true}, 72);
+  expect_same_when_disturbed({.axes = 2, .cycle_us = 166.667, .cycles = 800, .handshakes = true}, 72);
+  expect_same_when_disturbed({.axes = 2, .cycle_us = 1000, .wide = true, .cycles = 800, .handshakes = true}, 72);
 }
 
 }  // namespace
