@@ -19,9 +19,9 @@ void append_field(std::string& out, const Field& field, std::int64_t raw, Bytes 
   const bool number = slot_of(field).width != 0;
   const std::string violation = violation_text(field, raw);
   if (field.reserved && violation.empty() && !options.reserved) return;
-  fmt::format_to(std::back_inserter(out), "    {}: {}", field.label,
-                 number ? value_text(field, raw) : bytes_text(field, bytes));
-  if (!violation.empty()) fmt::format_to(std::back_inserter(out), "  <- {}", violation);
+  out.append("    ").append(field.label).append(": ");
+  out.append(number ? value_text(field, raw) : bytes_text(field, bytes));
+  if (!violation.empty()) out.append("  <- ").append(violation);
   out += '\n';
   if (!options.explanations) return;
   const ValueName* const name = number ? find_value(field.values, raw) : nullptr;
@@ -59,8 +59,9 @@ void append_text(std::string& out, const Dissection& dissection, const Settings&
   const auto to = std::back_inserter(out);
   for (const Segment& segment : dissection.segments) {
     const std::string node = node_name(segment.node, settings);
-    fmt::format_to(to, "  {}{}{}{}{}\n", node, node.empty() ? "" : ": ", segment.layout->title,
-                   segment.guessed ? " (a guess)" : "", segment.buffer == Buffer::kReassembled ? " (reassembled)" : "");
+    out.append("  ").append(node).append(node.empty() ? "" : ": ").append(segment.layout->title);
+    if (segment.guessed) out += " (a guess)";
+    out += segment.buffer == Buffer::kReassembled ? " (reassembled)\n" : "\n";
     for_each_field(*segment.layout, dissection.bytes(segment), [&](const Field& field, std::int64_t raw, Bytes bytes) {
       append_field(out, field, raw, bytes, options);
     });

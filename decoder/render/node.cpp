@@ -17,8 +17,10 @@ std::string_view configured_name(const Settings& settings, const NodeRef& node) 
 
 std::string node_text(const NodeRef& node, std::string_view name) {
   if (node.mac_id == kNoMacId) return {};
-  std::string text = fmt::format("{} {}", node.protocol == Protocol::kRtex ? "axis" : "node", node.mac_id);
-  if (!name.empty()) text += fmt::format(" ({})", name);
+  const fmt::format_int number(node.mac_id);
+  std::string text = node.protocol == Protocol::kRtex ? "axis " : "node ";
+  text.append(number.data(), number.size());
+  if (!name.empty()) text.append(" (").append(name).append(")");
   return text;
 }
 

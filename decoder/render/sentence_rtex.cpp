@@ -131,7 +131,7 @@ void take_field(Part& part, const Layout& layout, const Field& field, std::int64
   }
   switch (*place) {
     case Place::kCounter:
-      part.counter = fmt::format("counter {}", raw);
+      part.counter = "counter " + fmt::format_int(raw).str();
       break;
     case Place::kCyclic:
       part.cyclic = name_or(field, raw, "cyclic command");

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 
 namespace servotrace {
@@ -43,6 +44,13 @@ Split split(TimeNs time_ns) {
     --whole;
   }
   return {whole, rest};
+}
+
+// With nine digits: nanoseconds behind a point.
+void append_nanoseconds(std::string& text, std::int64_t nanoseconds) {
+  constexpr std::size_t kDigits = 9;
+  const fmt::format_int digits(nanoseconds);
+  text.append(kDigits - std::min(kDigits, digits.size()), '0').append(digits.data(), digits.size());
 }
 
 }  // namespace
@@ -94,17 +102,19 @@ std::string number_text(const Field& field, std::int64_t raw) {
     const int digits = field.width == 0 ? 2 : (field.width + 3) / 4;
     return fmt::format("{:0{}X}h", static_cast<std::uint64_t>(raw) & mask, digits);
   }
-  if (field.kind == Kind::kUnsigned && raw < 0) return fmt::format("{}", static_cast<std::uint64_t>(raw));
+  if (field.kind == Kind::kUnsigned && raw < 0) return fmt::format_int(static_cast<std::uint64_t>(raw)).str();
+  if (field.scale == Ratio{}) return fmt::format_int(raw).str();
   return scaled_text(raw, field.scale, decimal_places(field.scale));
 }
 
 std::string value_text(const Field& field, std::int64_t raw) {
-  const std::string number = number_text(field, raw);
+  std::string text = number_text(field, raw);
   if (const ValueName* const name = find_value(field.values, raw)) {
-    return fmt::format("{} ({})", number, name->name);
+    text.append(" (").append(name->name).append(")");
+  } else if (const std::string_view unit = symbol(field.unit); !unit.empty()) {
+    text.append(" ").append(unit);
   }
-  const std::string_view unit = symbol(field.unit);
-  return unit.empty() ? number : fmt::format("{} {}", number, unit);
+  return text;
 }
 
 std::string_view characters(Bytes bytes) {
@@ -164,12 +174,18 @@ std::string time_text(TimeNs time_ns) {
 }
 
 std::string seconds_text(TimeNs time_ns) {
-  const auto [whole, nanoseconds] = split(time_ns);
+  auto [whole, nanoseconds] = split(time_ns);
+  std::string text;
   // -0.5 s is -1 s and half a second: written as the sign and the distance from zero.
   if (whole < 0 && nanoseconds != 0) {
-    return fmt::format("-{}.{:09}", -(whole + 1), kSecondNs - nanoseconds);
+    text = "-";
+    whole = -(whole + 1);
+    nanoseconds = kSecondNs - nanoseconds;
   }
-  return fmt::format("{}.{:09}", whole, nanoseconds);
+  const fmt::format_int digits(whole);
+  text.append(digits.data(), digits.size()).append(1, '.');
+  append_nanoseconds(text, nanoseconds);
+  return text;
 }
 
 std::string duration_text(DurationNs duration_ns) {

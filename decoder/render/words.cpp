@@ -91,8 +91,10 @@ std::string_view short_label(std::string_view label) {
 }
 
 std::string quantity_text(const Field& field, std::int64_t raw) {
+  std::string text = number_text(field, raw);
   const std::string_view unit = field.unit == Unit::kCommandUnit ? std::string_view() : symbol(field.unit);
-  return fmt::format("{}{}{}", number_text(field, raw), unit.empty() ? "" : " ", unit);
+  join(text, " ", unit);
+  return text;
 }
 
 bool is_flag(const Field& field) { return field.kind == Kind::kBool || field.width == 1; }
@@ -106,7 +108,10 @@ std::string field_word(const Field& field, std::int64_t raw, Bytes under) {
                : std::string();
   }
   const ValueName* const name = find_value(field.values, raw);
-  if (field.role == Role::kSignal) return fmt::format("{} {}", short_label(field.label), quantity_text(field, raw));
+  if (field.role == Role::kSignal) {
+    std::string text(short_label(field.label));
+    return text.append(" ").append(quantity_text(field, raw));
+  }
   if (is_flag(field)) {
     if (raw == 0) return {};
     std::string label(short_label(field.label));
