@@ -23,8 +23,9 @@ class Runner {
     RawFrame frame;
     for (bool go_on = true; go_on;) {
       const Source::Step step = is_told_to_stop() ? Source::Step::kEnd : source_.next(frame);
-      if (step == Source::Step::kFrame) {
-        take_drops(frame.number - 1);
+      if (step == Source::Step::kFrame) [[likely]] {
+        if (!source_.dropped().empty()) [[unlikely]]
+          take_drops(frame.number - 1);
         go_on = push(frame);
         continue;
       }
@@ -49,8 +50,8 @@ class Runner {
     pipeline_.push(frame, wanted);
     ++result_.frames;
     if (frame.has_time) {
-      if (!result_.first_time_ns || frame.time_ns < *result_.first_time_ns) result_.first_time_ns = frame.time_ns;
-      if (!result_.last_time_ns || frame.time_ns > *result_.last_time_ns) result_.last_time_ns = frame.time_ns;
+      first_time_ns_ = std::min(first_time_ns_, frame.time_ns);
+      last_time_ns_ = std::max(last_time_ns_, frame.time_ns);
     }
     last_ = {frame.number, source_.byte_offset(), static_cast<std::uint32_t>(frame.bytes.size())};
     if (!pipeline_.fresh().empty()) keep_place();
@@ -97,6 +98,10 @@ class Runner {
   }
 
   void collect() {
+    if (first_time_ns_ <= last_time_ns_) {
+      result_.first_time_ns = first_time_ns_;
+      result_.last_time_ns = last_time_ns_;
+    }
     const Findings& findings = pipeline_.findings();
     result_.findings.assign(findings.all().begin(), findings.all().end());
     for (Finding& finding : result_.findings) lower_if_dropped(finding);
@@ -126,6 +131,8 @@ class Runner {
   std::size_t drops_taken_ = 0;
   std::vector<std::uint32_t> total_only_;  // interfaces whose drops were first known at the end
   FramePlace last_;
+  TimeNs first_time_ns_ = INT64_MAX;  // until a frame has a time these two are the wrong way round
+  TimeNs last_time_ns_ = INT64_MIN;
 };
 
 }  // namespace

@@ -27,11 +27,6 @@ constexpr std::uint32_t kClassCounters = 0x200;
 constexpr std::uint32_t kControllerReceiveOverflow = 0x01;
 constexpr std::uint32_t kControllerActive = 0x40;
 
-// Of a frame in Node::last_frames: 16 message IDs of group 1, 8 of group 2, 8 of group 3.
-std::size_t place_of(const Identifier& id) {
-  return id.group == 1 ? id.message_id & 15U : (id.group == 2 ? 16U : 24U) + (id.message_id & 7U);
-}
-
 // The poll identifiers carry change-of-state and cyclic messages of a node that is allocated so.
 std::string_view name_of_message(const Identifier& id, const Node* node) {
   if (node == nullptr || !node->change_of_state_only()) return id.row->name;
@@ -152,35 +147,6 @@ void Bus::gap() {
     connection.last_request = connection.last_response = {};
   }
   for (PendingOpen& open : opens_) open.used = false;
-}
-
-// Of what most frames are, a poll command or response of a known node before any deadline, only the connection is
-// looked at. Any other frame is taken as push() takes it.
-void Bus::push_plain(const Context& context, const can::Frame& frame) {
-  const Identifier id = identify(frame.identifier);
-  const bool command = id.kind() == MessageKind::kPollCommand;
-  if (!command && id.kind() != MessageKind::kPollResponse) {
-    push(context, frame);
-    return;
-  }
-  Node* const node = nodes_[static_cast<std::size_t>(id.mac_id)].get();
-  const TimeNs now = context.frame.time_ns;
-  if (node == nullptr || now >= plain_until_ns_) {
-    push(context, frame);
-    return;
-  }
-  last_ns_ = now;
-  bits_ += 47 + frame.data.size() * 8;
-  served_ = nullptr;
-  const Arrival arrival{context, frame, id};
-  node->last_frames[place_of(id)] = {context.frame.number, now};
-  if (!command) transmitted(arrival, *node);
-  push_poll(arrival, *node, command);
-  findings_.checked(rule("DN101"));
-  findings_.checked(rule("DN104"));
-  for (Node* entry : sessions_) {
-    if (entry->session.get() != served_ && entry->session->waits()) entry->session->on_time(context);
-  }
 }
 
 void Bus::push(const Context& context, const can::Frame& frame) {

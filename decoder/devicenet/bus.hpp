@@ -103,7 +103,14 @@ class Bus {
 
   // start.cpp
   void push_mac_check(const Arrival& arrival);
-  void transmitted(const Arrival& arrival, Node& node);
+  void transmitted(const Arrival& arrival, Node& node) {
+    if (node.start != StartState::kOnLine) [[unlikely]]
+      step_start(arrival, node);
+    node.heard = true;
+    node.active = true;
+    node.active_time_ns = arrival.now_ns();
+  }
+  void step_start(const Arrival& arrival, Node& node);
   void started(const Arrival& arrival, Node& node, bool certain);
   void tell_starts(const Context& context);
 

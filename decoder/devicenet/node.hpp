@@ -102,6 +102,11 @@ struct IoStream {
   std::optional<Learnt> size;  // bytes, as the device told
 };
 
+// Of a frame in Node::last_frames: 16 message IDs of group 1, 8 of group 2, 8 of group 3.
+constexpr std::size_t place_of(const Identifier& id) {
+  return id.group == 1 ? id.message_id & 15U : (id.group == 2 ? 16U : 24U) + (id.message_id & 7U);
+}
+
 // The last frame of one CAN identifier.
 struct LastFrame {
   std::uint64_t frame = 0;  // 0: none

@@ -134,7 +134,8 @@ void Bus::tell_starts(const Context& context) {
   }
 }
 
-void Bus::transmitted(const Arrival& arrival, Node& node) {
+// It sends something else than its check, for the first time or where it was not known to be on line.
+void Bus::step_start(const Arrival& arrival, Node& node) {
   const auto& row = kStartMachine.next(node.start, StartEvent::kTransmit);
   if (row.action == StartAction::kShortCheck) {
     checked(rule("DN103"));
@@ -148,9 +149,6 @@ void Bus::transmitted(const Arrival& arrival, Node& node) {
     checked(rule("DN103"));
   }
   node.start = row.to;
-  node.heard = true;
-  node.active = true;
-  node.active_time_ns = arrival.now_ns();
 }
 
 }  // namespace servotrace::devicenet

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "decoder/core/slot.hpp"
-#include "decoder/devicenet/session.hpp"
+#include "decoder/devicenet/bus.hpp"
 #include "decoder/link/rtex_record.hpp"
 #include "decoder/link/socketcan.hpp"
 #include "decoder/pipeline/context.hpp"
@@ -18,7 +18,6 @@ namespace {
 // A hostile capture may name any number of interfaces and rings: what is beyond is counted as not tracked.
 constexpr std::size_t kMaxInterfaces = 1024;
 constexpr std::size_t kMaxBuses = 256;
-constexpr std::size_t kNoBus = SIZE_MAX;
 
 struct Interface {
   OwnerId owner{};  // findings of the capture, one owner an interface
@@ -37,7 +36,7 @@ struct Ring {
 struct CanBus {
   BusRef bus;
   std::uint64_t frames = 0;
-  std::unique_ptr<devicenet::BusSession> session;
+  std::unique_ptr<devicenet::Bus> session;
 };
 
 }  // namespace
@@ -53,15 +52,19 @@ struct Pipeline::Impl {
   std::uint64_t frames = 0;
   std::uint64_t checked = 0;
   std::uint64_t untracked = 0;
-  RawFrame last;  // without its bytes
-  // Where the last frame of link type 227 belonged: most frames are followed by one of the same bus.
-  std::size_t plain_bus = kNoBus;  // in buses
-  std::uint32_t plain_interface = 0;
+  RawFrame last;  // its number, time and interface
+  // Where the last frame of link type 227 belonged: most frames are followed by one of the same bus. In buses and
+  // interfaces, so forgotten where these grow; and where CP101 or CP102 is found, which no plain frame ends. nullptr:
+  // none.
+  CanBus* plain_bus = nullptr;
+  Interface* plain_interface = nullptr;
+  std::uint32_t plain_interface_id = 0;
 
   Interface* interface(std::uint32_t id) {
     if (id >= kMaxInterfaces) return nullptr;
     while (interfaces.size() <= id) {
       const auto next = static_cast<std::uint32_t>(interfaces.size());
+      plain_bus = nullptr;
       interfaces.push_back(Interface{.owner = findings.owner(NodeRef{.bus = BusRef{.interface_id = next}})});
     }
     return &interfaces[id];
@@ -88,7 +91,8 @@ struct Pipeline::Impl {
     for (CanBus& entry : buses) {
       if (entry.bus == bus) return &entry;
     }
-    buses.push_back(CanBus{bus, 0, std::make_unique<devicenet::BusSession>(settings, bus, findings)});
+    plain_bus = nullptr;
+    buses.push_back(CanBus{bus, 0, std::make_unique<devicenet::Bus>(settings, bus, findings)});
     if (interface.assume_devicenet) buses.back().session->assume();
     return &buses.back();
   }
@@ -107,6 +111,7 @@ struct Pipeline::Impl {
     static constexpr RuleId kTimeBackwards = rule("CP102");
     if (!frame.has_time) return;
     if (interface.has_time && frame.time_ns < interface.last_time_ns) {
+      plain_bus = nullptr;
       findings.raise(frame, {.rule = kTimeBackwards,
                              .owner = interface.owner,
                              .arguments = {elapsed_ns(frame.time_ns, interface.last_time_ns)}});
@@ -184,12 +189,13 @@ struct Pipeline::Impl {
       if (entry->session->is_devicenet()) ++checked;
       return;
     }
-    if (frame.link_type == LinkType::kCanSocketcan && !settings.judge_every_block) {
-      plain_bus = static_cast<std::size_t>(entry - buses.data());
-      plain_interface = frame.interface_id;
-    }
-    const Context context{frame, settings, findings, dissection};
-    if (entry->session->push(context, place.frame)) {
+    const bool in_order =
+        !findings.is_open(interface.owner, rule("CP101")) && !findings.is_open(interface.owner, rule("CP102"));
+    plain_bus = frame.link_type == LinkType::kCanSocketcan && in_order && !settings.judge_every_block ? entry : nullptr;
+    plain_interface = &interface;
+    plain_interface_id = frame.interface_id;
+    entry->session->push({frame, settings, findings, dissection}, place.frame);
+    if (entry->session->is_devicenet()) {
       ++checked;
       if (dissection != nullptr) dissection->protocol = Protocol::kDevicenet;
     } else if (dissection != nullptr) {
@@ -203,31 +209,26 @@ struct Pipeline::Impl {
   [[gnu::always_inline]] bool push_plain_can(const RawFrame& frame) {
     constexpr std::size_t kHeader = 8;
     constexpr std::uint32_t kLastIdentifier = 0x7FF;  // above: flags, or 29 bits
-    if (frame.interface_id != plain_interface || frame.link_type != LinkType::kCanSocketcan || plain_bus == kNoBus)
+    if (plain_bus == nullptr || frame.interface_id != plain_interface_id || frame.link_type != LinkType::kCanSocketcan)
       return false;
     const std::size_t size = frame.bytes.size();
     if (size < kHeader || frame.original_length > size || !frame.has_time) return false;
     const std::uint32_t identifier = load_be(frame.bytes, 0, 4);
     const std::size_t length = frame.bytes[4];
     const std::uint8_t flags = frame.bytes[5];
-    Interface& interface = interfaces[frame.interface_id];
-    if (identifier > kLastIdentifier || length > 8 || size < kHeader + length || flags != 0 || !interface.has_time ||
-        frame.time_ns < interface.last_time_ns) {
+    if (identifier > kLastIdentifier || length > 8 || size < kHeader + length || flags != 0 ||
+        !plain_interface->has_time || frame.time_ns < plain_interface->last_time_ns) {
       return false;
     }
-    CanBus& entry = buses[plain_bus];
-    const Context context{frame, settings, findings, nullptr};
-    findings.calm(interface.owner, rule("CP101"));
-    findings.calm(interface.owner, rule("CP102"));
     findings.checked(rule("CP101"));
     findings.checked(rule("CP102"));
-    interface.last_time_ns = frame.time_ns;
-    ++entry.frames;
-    if (entry.session->push_plain(context, {.identifier = identifier,
-                                            .data = frame.bytes.subspan(kHeader, length),
-                                            .data_offset = static_cast<std::uint32_t>(kHeader)})) {
-      ++checked;
-    }
+    plain_interface->last_time_ns = frame.time_ns;
+    ++plain_bus->frames;
+    devicenet::Bus& bus = *plain_bus->session;
+    bus.push_plain({frame, settings, findings, nullptr}, {.identifier = identifier,
+                                                          .data = frame.bytes.subspan(kHeader, length),
+                                                          .data_offset = static_cast<std::uint32_t>(kHeader)});
+    if (bus.is_devicenet()) ++checked;
     return true;
   }
 
@@ -260,8 +261,9 @@ void Pipeline::push(const RawFrame& frame, Dissection* dissection) {
   Impl& self = *impl_;
   self.findings.mark();
   ++self.frames;
-  self.last = frame;
-  self.last.bytes = {};
+  self.last.number = frame.number;
+  self.last.time_ns = frame.time_ns;
+  self.last.interface_id = frame.interface_id;
   if (dissection == nullptr && self.push_plain_can(frame)) return;
   if (dissection != nullptr) {
     dissection->clear();
@@ -275,6 +277,7 @@ void Pipeline::push(const RawFrame& frame, Dissection* dissection) {
   self.push_time(frame, *interface);
   const bool truncated = frame.original_length > frame.bytes.size();
   if (truncated) {
+    self.plain_bus = nullptr;
     self.findings.raise(frame, {.rule = rule("CP101"),
                                 .owner = interface->owner,
                                 .arguments = {static_cast<std::int64_t>(frame.bytes.size()), frame.original_length}});

@@ -17,28 +17,25 @@ class Ticks {
   // False, and nothing changed, for a resolution finer than 64 bits can hold.
   bool set(std::uint8_t resolution) {
     const unsigned exponent = resolution & 0x7FU;
-    if ((resolution & 0x80U) != 0) {
-      if (exponent > 63) return false;
-      *this = {};
-      binary_ = true;
-      shift_ = exponent;
-      return true;
-    }
-    if (exponent > 19) return false;
-    *this = {};
+    const bool binary = (resolution & 0x80U) != 0;
+    if (exponent > (binary ? 63U : 19U)) return false;
+    binary_ = binary;
+    shift_ = exponent;
     multiply_ = divide_ = 1;
     for (unsigned i = exponent; i < 9; ++i) multiply_ *= 10;
     for (unsigned i = 9; i < exponent; ++i) divide_ *= 10;
+    settle();
     return true;
   }
-  void set_offset_s(std::int64_t offset_s) { offset_s_ = offset_s; }
+  void set_offset_s(std::int64_t offset_s) {
+    offset_s_ = offset_s;
+    settle();
+  }
 
   // Saturates at the ends of TimeNs.
   TimeNs to_ns(std::uint64_t ticks) const {
-    if (!binary_ && divide_ == 1 && offset_s_ == 0) [[likely]] {
-      std::int64_t result = 0;
-      return __builtin_mul_overflow(ticks, multiply_, &result) ? INT64_MAX : result;
-    }
+    if (ticks < plain_below_) [[likely]]
+      return static_cast<TimeNs>(ticks * multiply_);
     return slow(ticks);
   }
   // Nanoseconds between two ticks, at least 1.
@@ -49,6 +46,9 @@ class Ticks {
 
  private:
   __extension__ using Wide = __int128;
+
+  static constexpr std::uint64_t last_plain(std::uint64_t multiply) { return std::uint64_t{INT64_MAX} / multiply; }
+  void settle() { plain_below_ = binary_ || divide_ != 1 || offset_s_ != 0 ? 0 : last_plain(multiply_) + 1; }
 
   TimeNs slow(std::uint64_t ticks) const {
     Wide value = ticks;
@@ -65,8 +65,9 @@ class Ticks {
     return static_cast<TimeNs>(value);
   }
 
-  std::uint64_t multiply_ = 1000;
+  std::uint64_t multiply_ = 1000;  // of a binary resolution these two mean nothing
   std::uint64_t divide_ = 1;
+  std::uint64_t plain_below_ = last_plain(1000) + 1;  // of fewer ticks the product is the time
   std::int64_t offset_s_ = 0;
   unsigned shift_ = 0;
   bool binary_ = false;
