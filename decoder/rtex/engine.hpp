@@ -95,6 +95,7 @@ class Engine {
   // in full.
   bool quick_command(const Context& context, Node& node, Bytes block, std::uint32_t block_at);
   bool quick_response(const Context& context, Node& node, Bytes block, std::uint32_t block_at);
+  void judge_quick_response(const Context& context, Node& node, std::uint32_t block_at, ChangedParts parts);
   static void follow_counter(Node& node, std::uint8_t now, bool moves, std::uint64_t frame);
   void step_quickly(Scene& scene, ChannelState& channel);
   void answer_quickly(Scene& scene, ChannelState& channel, bool same);

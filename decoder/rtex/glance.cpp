@@ -23,7 +23,7 @@ bool Engine::glances(const Context& context, const RecordPlace& place) {
   if (record.size() != kRecord.size + rest_.bytes) return false;
   const std::uint64_t first = load_le64(record, 0);
   const bool response = first != rest_.command.header[0];
-  const Rest::Direction& direction = response ? rest_.response : rest_.command;
+  Rest::Direction& direction = response ? rest_.response : rest_.command;
   const std::uint64_t second = load_le64(record, kSequence.first_byte);
   if (first != direction.header[0] || ((second ^ direction.header[1]) & kBesidesSequence) != 0 ||
       load_le64(record, kNodeBits.first_byte) != direction.header[2] ||
@@ -34,10 +34,10 @@ bool Engine::glances(const Context& context, const RecordPlace& place) {
   const RawFrame& frame = context.frame;
   const bool shared = place.carrier == Carrier::kEthernet || place.carrier == Carrier::kUdp;
   if (!frame.has_time || frame.time_resolution_ns != ring_.time_resolution_ns || shared != ring_.shared_carrier ||
-      shows_news(context)) {
+      (context.dissection != nullptr && shows_news(context))) {
     return false;
   }
-  if (!rest_.repeats(frame, response, record.subspan(kRecord.size))) return false;
+  if (!rest_.repeats(direction, frame, record.subspan(kRecord.size))) return false;
   if (response) {
     ring_.cycle_has_response = true;
     ring_.last_response_frame = frame.number;
@@ -60,7 +60,7 @@ bool Engine::glances(const Context& context, const RecordPlace& place) {
     ring_.last_command = {frame.number, frame.time_ns, ring_.cycle};
     ++rest_.glanced_commands;
   }
-  rest_.take(frame, response);
+  rest_.take(direction, frame);
   if (context.dissection != nullptr) context.dissection->repeats = true;
   return true;
 }

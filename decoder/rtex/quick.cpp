@@ -115,48 +115,50 @@ bool Engine::quick_response(const Context& context, Node& node, Bytes block, std
   if (any(changed, node.quiet.response_mask) || !ring_.cycle_has_command) return false;
   const std::uint8_t main_echo = code_of(words[0]);
   const std::uint8_t sub_echo = sub_code_of(words[2]);
-  const bool main_changes = (changed[0] & mask_of(kCode)) != 0 || (main_echo != 0 && (changed[1] & kFirst) != 0);
-  const bool sub_changes = (sub_code_of(changed[2]) | (sub_echo != 0 ? changed[2] & kFirst : 0)) != 0;
-  if ((main_changes && !is_monitor_or_none(main_echo)) || (sub_changes && !is_monitor_or_none(sub_echo))) return false;
+  const ChangedParts parts = {(changed[0] & mask_of(kCode)) != 0 || (main_echo != 0 && (changed[1] & kFirst) != 0),
+                              sub_code_of(changed[2]) != 0 || (sub_echo != 0 && (changed[2] & kFirst) != 0)};
+  if ((parts.main && !is_monitor_or_none(main_echo)) || (parts.sub && !is_monitor_or_none(sub_echo))) return false;
   const std::uint8_t counter = counter_of(words[0]);
   if (counter != (node.counter.history >> (2U * static_cast<unsigned>(ring_.lag)) & 3U)) return false;
   const bool identical = words == node.response_raw;
   // It may be a stale one.
   if (identical && node.same_responses + (node.counter_moved_since_response ? 1 : 0) > 1) return false;
-  if (!identical) {
-    node.same_responses = 0;
-  } else if (node.counter_moved_since_response) {
-    ++node.same_responses;
-  }
+  node.same_responses = identical ? node.same_responses + (node.counter_moved_since_response ? 1 : 0) : 0;
   node.identical_response = identical;
   node.counter_moved_since_response = false;
   node.previous_response = node.response;
-  Quiet& quiet = node.quiet;
-  if (main_changes || sub_changes) {
+  if (parts.main || parts.sub) {
     node.response = view_of_response(block, node.wide ? BlockSize::kWide : BlockSize::kNarrow);
   } else if (any(changed, kEveryBit)) {
-    quiet.has_moved = ring_.of_record.restless = true;
+    node.quiet.has_moved = ring_.of_record.restless = true;
     follow_words(node.response, words);
   }
   node.response_raw = words;
   node.response.counter = counter;
   node.response_frame = context.frame.number;
   node.response_cycle = ring_.cycle;
-  ++quiet.responses;
-  const bool main_is_judged = main_changes || quiet.answers[0].same != kSameAnswers;
-  const bool sub_is_judged = node.wide && (sub_changes || quiet.answers[1].same != kSameAnswers);
-  if (!main_is_judged) ++quiet.answers[0].times;
-  if (node.wide && !sub_is_judged) ++quiet.answers[1].times;
-  if (!main_is_judged && !sub_is_judged && !quiet.has_moved && !quiet.inputs_watched) return true;
+  ++node.quiet.responses;
+  judge_quick_response(context, node, block_at, parts);
+  return true;
+}
+
+void Engine::judge_quick_response(const Context& context, Node& node, std::uint32_t block_at, ChangedParts parts) {
+  Quiet& quiet = node.quiet;
+  auto& [main, sub] = quiet.answers;
+  const bool main_is_judged = parts.main || main.same != kSameAnswers;
+  const bool sub_is_judged = node.wide && (parts.sub || sub.same != kSameAnswers);
+  if (!main_is_judged) ++main.times;
+  if (node.wide && !sub_is_judged) ++sub.times;
+  const bool follows = quiet.has_moved && !node.following.proven && !node.known[Fact::kMonitor1].certain();
+  if (!main_is_judged && !sub_is_judged && !follows && !quiet.inputs_watched) return;
   Scene scene = quick_scene(context, node, block_at);
-  quiet.inputs_watched = quiet.inputs_watched || ((main_changes || sub_changes) && emergency_input(node).known);
+  quiet.inputs_watched = quiet.inputs_watched || ((parts.main || parts.sub) && emergency_input(node).known);
   if (quiet.inputs_watched) run_unsteady(scene, kStatus);
-  if (main_is_judged) answer_quickly(scene, node.main(), !main_changes);
-  if (sub_is_judged) answer_quickly(scene, node.sub(), !sub_changes);
+  if (main_is_judged) answer_quickly(scene, node.main(), !parts.main);
+  if (sub_is_judged) answer_quickly(scene, node.sub(), !parts.sub);
   watch_values(scene);
   quiet.has_moved = false;
   end_quick(node);
-  return true;
 }
 
 void Engine::answer_quickly(Scene& scene, ChannelState& channel, bool same) {

@@ -30,6 +30,11 @@ struct SteadyAnswers {
 };
 inline constexpr std::uint8_t kSameAnswers = 2;  // from the third on they are counted only
 
+// The non-cyclic parts of a block that are not those before.
+struct ChangedParts {
+  bool main = false, sub = false;
+};
+
 // Of a node.
 struct Quiet {
   bool armed = false;                                    // the short cut may be taken

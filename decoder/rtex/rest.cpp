@@ -143,13 +143,14 @@ void Engine::begin_rest(const Context& context, const RecordHeader& header) {
 // are up to date.
 bool Engine::goes_on_resting(const Context& context, bool response, Bytes blocks) {
   if (!rest_.reached) return false;
+  Rest::Direction& direction = response ? rest_.response : rest_.command;
   const bool in_turn = rest_.command.records == rest_.response.records + (response ? 1 : 0);
   if (!in_turn || shows_news(context) || !ring_.record_quiet || !ring_.timing.known ||
-      !rest_.repeats(context.frame, response, blocks)) {
+      !rest_.repeats(direction, context.frame, blocks)) {
     end_rest();
     return false;
   }
-  rest_.take(context.frame, response);
+  rest_.take(direction, context.frame);
   if (context.dissection != nullptr) context.dissection->repeats = true;
   return true;
 }

@@ -94,17 +94,15 @@ struct Rest {
     return std::equal(blocks.begin(), blocks.end(), image.begin());
   }
   // Whether a record is the one of a period ago, and in time.
-  [[gnu::always_inline]] bool repeats(const RawFrame& frame, bool is_response, Bytes blocks) const {
+  [[gnu::always_inline]] bool repeats(const Direction& direction, const RawFrame& frame, Bytes blocks) const {
     const DurationNs interval = elapsed_ns(last_ns, frame.time_ns);
-    const Direction& direction = is_response ? response : command;
     return interval >= 0 && interval <= longest_ns && blocks.size() == bytes &&
            is_image(direction.images[(first_image + phase) % kMaxPeriod], blocks);
   }
-  [[gnu::always_inline]] void take(const RawFrame& frame, bool is_response) {
-    Direction& direction = is_response ? response : command;
+  [[gnu::always_inline]] void take(Direction& direction, const RawFrame& frame) {
     direction.stamps[direction.records++ % kStamps] = {frame.number, frame.time_ns};
     last_ns = frame.time_ns;
-    if (!is_response) return;
+    if (&direction == &command) return;
     if (!measured.empty()) measure(frame.time_ns);
     if (++phase < period) return;
     phase = 0;
