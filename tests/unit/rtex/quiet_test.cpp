@@ -3,6 +3,7 @@
 // short cut and without it.
 #include <gtest/gtest.h>
 
+#include "decoder/link/rtex_record.hpp"
 #include "tests/support/disturbed.hpp"
 #include "tests/support/scenarios.hpp"
 #include "tests/support/short_cut.hpp"
@@ -78,6 +79,26 @@ TEST(QuietBlocks, DisturbedMovingTrafficOfKnownDrivesSaysTheSame) {
   expect_same_when_disturbed({.axes = 2, .cycle_us = 1000, .wide = true, .cycles = 500, .moving = true}, 72,
                              talkative());
   expect_same_when_disturbed({.axes = 2, .cycle_us = 83.333, .cycles = 500}, 72, talkative());
+}
+
+// Every byte of a block in turn, in three records of a direction.
+TEST(QuietBlocks, WhereverABlockChangesItSaysTheSame) {
+  const simulator::Simulation whole =
+      make_traffic(rtex_traffic({.axes = 2, .cycle_us = 1000, .wide = true, .cycles = 300}));
+  const std::size_t first = whole.frames.size() * 3 / 4;
+  for (std::size_t at = first; at < first + 2; ++at) {
+    constexpr std::size_t kBlocks = 12 + rtex::kRecord.size;  // behind the exported PDU's tags
+    for (std::size_t place = kBlocks; place < whole.frames[at].bytes.size(); ++place) {
+      SCOPED_TRACE("record " + std::to_string(at) + ", byte " + std::to_string(place - kBlocks));
+      simulator::Simulation changed = whole;
+      for (std::size_t i = at; i < at + 6; i += 2) {
+        std::uint8_t& byte = changed.frames[i].bytes[place];
+        byte = static_cast<std::uint8_t>(~byte);
+      }
+      expect_same(changed, talkative());
+      if (HasFailure()) return;
+    }
+  }
 }
 
 TEST(QuietBlocks, DisturbedHandshakesSayTheSame) {
