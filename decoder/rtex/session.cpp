@@ -6,11 +6,12 @@
 namespace servotrace::rtex {
 
 struct RingSession::Impl {
-  Engine engine;
+  Impl(const Settings& settings, const BusRef& bus, Findings& findings) : engine(settings, bus, findings) {}
+  Engine engine;  // too large for the stack
 };
 
 RingSession::RingSession(const Settings& settings, const BusRef& bus, Findings& findings)
-    : impl_(std::make_unique<Impl>(Impl{Engine(settings, bus, findings)})) {}
+    : impl_(std::make_unique<Impl>(settings, bus, findings)) {}
 RingSession::~RingSession() = default;
 void RingSession::push(const Context& context, const RecordPlace& place) { impl_->engine.push(context, place); }
 void RingSession::gap() { impl_->engine.gap(); }
