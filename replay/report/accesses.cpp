@@ -10,17 +10,13 @@
 #include "decoder/profiles/nsk_esb/derived.hpp"
 #include "decoder/render/value.hpp"
 #include "decoder/rtex/layouts.hpp"
+#include "replay/report/node_key.hpp"
 
 namespace servotrace::report {
 namespace {
 
 constexpr std::size_t kMaxValue = 200;       // characters of a value
 constexpr std::ptrdiff_t kKeptFirst = 1000;  // transactions never left out
-
-std::uint64_t key_of(const NodeRef& node) {
-  return static_cast<std::uint64_t>(node.bus.kind) << 60U | std::uint64_t{node.bus.interface_id} << 24U |
-         std::uint64_t{node.bus.number} << 16U | (static_cast<std::uint64_t>(node.mac_id) & 0xFFU) << 8U;
-}
 
 std::string text_of(const Field& field, Bytes bytes) {
   if (field.kind == Kind::kBytes || field.kind == Kind::kText) return bytes_text(field, bytes_of(field, bytes));
@@ -64,7 +60,7 @@ std::string_view name_of(AccessKind kind) {
   return kNames[static_cast<std::size_t>(kind)];
 }
 
-AccessLog::Node& AccessLog::node_of(const NodeRef& node) { return nodes_[key_of(node)]; }
+AccessLog::Node& AccessLog::node_of(const NodeRef& node) { return nodes_[node_key(node)]; }
 
 void AccessLog::note(Access access) {
   Node& node = node_of(access.node);
@@ -148,7 +144,7 @@ void AccessLog::add_rtex(const RawFrame& frame, const Dissection& dissection) {
       if (!close(segment, place)) continue;
       if (index != 0 && node.string_key == access.what && !accesses_.empty()) {
         const auto last = std::find_if(accesses_.rbegin(), accesses_.rend(), [&](const Access& entry) {
-          return entry.what == access.what && key_of(entry.node) == key_of(segment.node);
+          return entry.what == access.what && node_key(entry.node) == node_key(segment.node);
         });
         if (last != accesses_.rend()) {
           last->value += piece;

@@ -1,25 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "replay/report/collector.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "decoder/core/slot.hpp"
 #include "decoder/render/value.hpp"
 #include "decoder/rtex/layouts.hpp"
+#include "replay/report/node_key.hpp"
 #include "replay/signals.hpp"
 
 namespace servotrace::report {
 namespace {
 
 constexpr std::size_t kSeriesBins = 1024;
-constexpr std::size_t kCloseUpBins = 2048;
-constexpr std::size_t kMaxNodes = 512;
-
-// Messages are kept for a fault from so long before its window on; those of DeviceNet always: a node that fell silent
-// said its last word long ago.
-constexpr DurationNs kMessagesBefore = 2 * kSecondNs;
 
 constexpr std::string_view kCommandPosition = "command_position";
 constexpr std::string_view kActualPosition = "actual_position";
@@ -32,11 +25,6 @@ constexpr Field kDistance = {.key = "command_minus_actual",
                              .role = Role::kSignal,
                              .unit = Unit::kCommandUnit,
                              .section = "SX-DSV02203 7-1-1"};
-
-std::uint64_t key_of(const NodeRef& node) {
-  return static_cast<std::uint64_t>(node.bus.kind) << 60U | std::uint64_t{node.bus.interface_id} << 24U |
-         std::uint64_t{node.bus.number} << 16U | (static_cast<std::uint64_t>(node.mac_id) & 0xFFU) << 8U;
-}
 
 // The bytes of a message of up to eight; of a longer one nothing.
 std::uint64_t image_of(Bytes bytes) {
@@ -51,14 +39,6 @@ std::uint64_t image_of(Bytes bytes) {
 // Of such an image.
 std::uint64_t byte_mask(std::size_t byte) { return byte < 8 ? std::uint64_t{0xFF} << 8U * byte : 0; }
 
-std::string text_of(const Field& field, std::int64_t raw, Bytes under) {
-  return field.kind == Kind::kBytes || field.kind == Kind::kText ? bytes_text(field, under) : value_text(field, raw);
-}
-
-bool is_series(const Field& field) {
-  return field.kind == Kind::kUnsigned || field.kind == Kind::kSigned || field.kind == Kind::kBool;
-}
-
 }  // namespace
 
 Collector::Collector(const Settings& settings, const std::vector<Watch>& watches, std::vector<WantedFrame> evidence)
@@ -70,7 +50,7 @@ Collector::Collector(const Settings& settings, const std::vector<Watch>& watches
 }
 
 std::size_t Collector::node_index(const NodeRef& node) {
-  const std::uint64_t key = key_of(node);
+  const std::uint64_t key = node_key(node);
   if (key == last_key_ && last_node_) return *last_node_;
   const auto found = node_by_key_.find(key);
   if (found != node_by_key_.end()) {
@@ -102,7 +82,7 @@ Collector::Place& Collector::place_of(Node& node, const RawFrame& frame, const L
   const Layout& shared = has_forms ? rtex::kResponse : layout;
   for (std::size_t i = 0; i < layout.fields.size(); ++i) {
     const Field& field = layout.fields[i];
-    if (field.role == Role::kPlain || !is_series(field)) continue;
+    if (field.role == Role::kPlain || !is_number(field)) continue;
     Kept kept{.field = &field, .slot = slot_of(field), .index = 0, .is_state = field.role == Role::kState};
     auto& known = kept.is_state ? node.tracks : node.signals;
     const Field& first = shared.fields[i];
@@ -174,115 +154,6 @@ void Collector::add_signal(Node& node, std::size_t index, const RawFrame& frame,
         static_cast<std::int32_t>(static_cast<std::uint32_t>(node.commanded) - static_cast<std::uint32_t>(value));
     add_close_up(frame, node, index, layout, kDistance, distance);
   }
-}
-
-void Collector::add_close_up(const RawFrame& frame, const Node& node, std::size_t index, const Layout& layout,
-                             const Field& field, std::int64_t value) {
-  for (CloseUp* const entry : open_) {
-    CloseUp& close_up = *entry;
-    if (close_up.watch.node.mac_id != kNoMacId && key_of(close_up.watch.node) != key_of(node.node)) continue;
-    const auto [place, fresh] = close_up.index.try_emplace({index, &field}, close_up.signals.size());
-    if (fresh) {
-      close_up.signals.push_back(
-          {node.node, filter_name(layout, field), std::string(field.label), &field, Series(kCloseUpBins)});
-    }
-    close_up.signals[place->second].series.add(frame.time_ns, value);
-  }
-}
-
-void Collector::add_snapshots(const RawFrame& frame, const Dissection& dissection) {
-  // Only messages of watched nodes are kept, until their fault.
-  for (CloseUp& close_up : close_ups_) {
-    if (close_up.taken || close_up.watch.node.mac_id == kNoMacId) continue;
-    if (dissection.protocol == Protocol::kRtex && elapsed_ns(frame.time_ns, close_up.watch.begin_ns) > kMessagesBefore)
-      continue;
-    const std::uint64_t wanted = key_of(close_up.watch.node);
-    const std::size_t index = node_index(close_up.watch.node);
-    if (index >= kMaxNodes) continue;
-    Node& node = nodes_[index];
-    Snapshot made;
-    Parts kind;
-    Direction direction = Direction::kNone;
-    for (const Segment& segment : dissection.segments) {
-      if (segment.node.mac_id == kNoMacId || key_of(segment.node) != wanted || segment.direction == Direction::kNone)
-        continue;
-      const Bytes bytes = dissection.bytes(segment);
-      direction = segment.direction;
-      made.parts.emplace_back(segment.layout, std::vector<std::uint8_t>(bytes.begin(), bytes.end()));
-      kind.push_back(segment.layout);
-    }
-    if (made.parts.empty()) continue;
-    made.frame = frame.number;
-    const auto slot_index = static_cast<std::size_t>(direction);
-    Told& told = node.told[slot_index][kind];
-    node.last[slot_index] = &told;
-    if (told.latest.frame != frame.number) {
-      if (told.latest.frame != 0 && !told.latest.same_bytes(made)) told.before = std::move(told.latest);
-      told.latest = std::move(made);
-    }
-  }
-}
-
-void Collector::take_messages(CloseUp& close_up) {
-  close_up.taken = true;
-  if (close_up.watch.node.mac_id == kNoMacId) return;
-  const std::size_t index = node_index(close_up.watch.node);
-  if (index >= kMaxNodes) return;
-  const Node& node = nodes_[index];
-  for (const Direction direction : {Direction::kCommand, Direction::kResponse}) {
-    const Told* const told = node.last[static_cast<std::size_t>(direction)];
-    if (told == nullptr) continue;
-    const Snapshot& after = told->latest;
-    const Snapshot& before = told->before;
-    MessagePair pair;
-    pair.direction = direction;
-    pair.after_frame = after.frame;
-    pair.before_frame = before.frame;
-    for (const auto& [layout, bytes] : after.parts) {
-      const std::vector<std::uint8_t>* old = nullptr;
-      for (const auto& [other, other_bytes] : before.parts) {
-        if (other == layout) old = &other_bytes;
-      }
-      for_each_field(*layout, bytes, [&, layout = layout](const Field& field, std::int64_t raw, Bytes under) {
-        if (field.reserved) return;
-        FieldRow row;
-        row.filter = filter_name(*layout, field);
-        row.label = std::string(field.label);
-        row.after = text_of(field, raw, under);
-        if (old != nullptr) {
-          const Slot place = slot_of(field);
-          row.before = text_of(field, place.width == 0 ? 0 : read(place, *old), bytes_of(field, *old));
-        }
-        row.differs = before.frame != 0 && row.before != row.after;
-        pair.rows.push_back(std::move(row));
-      });
-    }
-    close_up.messages.push_back(std::move(pair));
-  }
-}
-
-// The alarm an asked drive answers with: the main number of RTEX (SX-DSV02203 6-6-2), the code of an NS310 (SIE-C718-7
-// 5.3.4).
-void Collector::look_for_code(CloseUp& close_up, const RawFrame& frame, const Dissection& dissection) {
-  for (const Segment& segment : dissection.segments) {
-    if (segment.direction != Direction::kResponse || key_of(segment.node) != key_of(close_up.watch.node)) continue;
-    for (const std::string_view key : {"alarm_main", "alarm_code"}) {
-      const Field* field = segment.layout->find(key);
-      if (field == nullptr || !is_series(*field)) continue;
-      const std::int64_t value = read(slot_of(*field), dissection.bytes(segment));
-      if (value == 0) continue;
-      close_up.code = value;
-      close_up.code_frame = frame.number;
-      close_up.code_text = value_text(*field, value);
-      return;
-    }
-  }
-}
-
-bool Collector::CloseUp::looks_at(const RawFrame& frame) const {
-  if (frame.number == watch.frame || (frame.time_ns >= watch.begin_ns && frame.time_ns <= watch.end_ns)) return true;
-  if (taken || watch.node.mac_id == kNoMacId) return false;
-  return frame.number > watch.frame || elapsed_ns(frame.time_ns, watch.begin_ns) <= kMessagesBefore;
 }
 
 // A code is looked for behind the fault's frame, which is taken apart, and then so is what comes before a record can

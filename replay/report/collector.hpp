@@ -111,6 +111,11 @@ class Collector {
   void take_messages(CloseUp& close_up);
   static void look_for_code(CloseUp& close_up, const RawFrame& frame, const Dissection& dissection);
 
+  static constexpr std::size_t kMaxNodes = 512;
+  static bool is_number(const Field& field) {
+    return field.kind == Kind::kUnsigned || field.kind == Kind::kSigned || field.kind == Kind::kBool;
+  }
+
   const Settings& settings_;
   std::deque<Node> nodes_;  // stays where it is: `last` points into it
   std::unordered_map<std::uint64_t, std::size_t> node_by_key_;
