@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "decoder/core/slot.hpp"
+#include "decoder/devicenet/derived.hpp"
 #include "decoder/findings/catalogue.hpp"
 #include "dissector/columns.hpp"
 #include "dissector/fields.hpp"
@@ -226,7 +227,7 @@ void draw_derived(const Canvas& canvas, const Derived& derived) {
       break;
   }
   proto_item_set_generated(item);
-  if (derived.field->key == "response_time_ns") proto_item_set_hidden(item);  // the link says it in seconds
+  if (derived.field == &devicenet::kResponseTimeField) proto_item_set_hidden(item);  // the link says it in seconds
 }
 
 void draw_frame_link(const Canvas& canvas, proto_tree* tree, int id, std::uint64_t number) {

@@ -73,13 +73,11 @@ std::string part_of(std::string_view title, const Example& example, const Style&
 
 std::string message_pattern(const Rule& row) {
   std::string text;
-  for (std::size_t i = 0; i < row.message.size(); ++i) {
-    if (row.message[i] != '{') {
-      text += row.message[i];
-      continue;
-    }
-    text += placeholder(row.arguments[static_cast<std::size_t>(row.message[i + 1] - '0')]);
-    i += 2;
+  for (std::string_view rest = row.message; !rest.empty();) {
+    const MessagePart part = first_part(rest);
+    if (part.is_argument) text += placeholder(row.arguments[part.argument]);
+    text += part.is_argument && !part.text.empty() ? fmt::format(" {}s", part.text) : std::string(part.text);
+    rest.remove_prefix(part.length);
   }
   return text;
 }

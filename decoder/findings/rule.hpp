@@ -59,7 +59,7 @@ struct Rule {
   Severity severity = Severity::kNote;
   Actor actor = Actor::kMaster;
   std::string_view title;    // what is wrong, a line without a full stop
-  std::string_view message;  // {0}..{3} stand for the arguments; no full stop
+  std::string_view message;  // {0}..{3} stand for the arguments, {0|cycle} for a number of cycles; no full stop
   std::array<Argument, kMaxArguments> arguments = {};
   std::string_view section;  // manual and section
   // The codes a report of the drive can name, each with what the manual says of it as explanation.
@@ -84,6 +84,29 @@ constexpr Severity lowered(Severity severity) {
   return severity == Severity::kNote ? severity : static_cast<Severity>(static_cast<unsigned>(severity) - 1U);
 }
 
+// A piece of a message: text as it stands, or the place of an argument, "{0}", with the noun it counts, "{0|cycle}".
+struct MessagePart {
+  std::size_t length = 0;  // in the message; 0: it is malformed here
+  bool is_argument = false;
+  std::size_t argument = 0;
+  std::string_view text;  // as it stands, or the noun: an s follows it where the argument is not 1
+};
+// Precondition: message is not empty.
+constexpr MessagePart first_part(std::string_view message) {
+  const std::size_t brace = message.find_first_of("{}");
+  if (brace != 0) {
+    const std::string_view text = message.substr(0, brace);
+    return {.length = text.size(), .text = text};
+  }
+  const std::size_t end = message.find('}');
+  if (message[0] == '}' || end == std::string_view::npos || end < 2 || message[1] < '0' || message[1] > '9') return {};
+  if (end > 2 && (message[2] != '|' || end == 3)) return {};
+  return {.length = end + 1,
+          .is_argument = true,
+          .argument = static_cast<std::size_t>(message[1] - '0'),
+          .text = end == 2 ? std::string_view() : message.substr(3, end - 3)};
+}
+
 // True where the row is complete: id of two letters and three digits, no empty text, a message whose arguments exist.
 constexpr bool well_formed(const Rule& rule) {
   if (rule.id.size() != 5) return false;
@@ -95,13 +118,10 @@ constexpr bool well_formed(const Rule& rule) {
       rule.fix.empty()) {
     return false;
   }
-  for (std::size_t i = 0; i < rule.message.size(); ++i) {
-    if (rule.message[i] == '}') return false;
-    if (rule.message[i] != '{') continue;
-    if (i + 2 >= rule.message.size() || rule.message[i + 2] != '}') return false;
-    const char digit = rule.message[i + 1];
-    if (digit < '0' || digit >= static_cast<char>('0' + kMaxArguments)) return false;
-    i += 2;
+  for (std::string_view rest = rule.message; !rest.empty();) {
+    const MessagePart part = first_part(rest);
+    if (part.length == 0 || (part.is_argument && part.argument >= kMaxArguments)) return false;
+    rest.remove_prefix(part.length);
   }
   return true;
 }

@@ -62,14 +62,16 @@ std::string argument_text(const Argument& argument, std::int64_t value) {
 std::string message(const Finding& finding) {
   const Rule& row = rule_row(finding.rule);
   std::string text;
-  for (std::size_t i = 0; i < row.message.size(); ++i) {
-    if (row.message[i] != '{') {
-      text += row.message[i];
-      continue;
+  for (std::string_view rest = row.message; !rest.empty();) {
+    const MessagePart part = first_part(rest);
+    if (part.is_argument) {
+      const std::int64_t value = finding.arguments[part.argument];
+      text += argument_text(row.arguments[part.argument], value);
+      if (!part.text.empty()) text += fmt::format(" {}{}", part.text, value == 1 ? "" : "s");
+    } else {
+      text += part.text;
     }
-    const auto index = static_cast<std::size_t>(row.message[i + 1] - '0');
-    text += argument_text(row.arguments[index], finding.arguments[index]);
-    i += 2;
+    rest.remove_prefix(part.length);
   }
   return text;
 }
