@@ -50,19 +50,15 @@ std::string overview(std::span<const Built> captures) {
   return out + "</tbody></table></div>\n";
 }
 
-// Headings one level down: those of a capture below the name of its file.
-std::string deepened(std::string html) {
-  for (std::size_t at = html.find('h'); at != std::string::npos && at + 1 < html.size(); at = html.find('h', at + 1)) {
-    const bool is_tag = at > 0 && (html[at - 1] == '<' || (at > 1 && html[at - 1] == '/' && html[at - 2] == '<'));
-    if (is_tag && html[at + 1] >= '2' && html[at + 1] <= '5') ++html[at + 1];
-  }
-  return html;
-}
-
 }  // namespace
 
-void Page::heading(std::string_view id, std::string_view text) {
-  add("<h2 id=\"{}{}\">{}</h2>\n", prefix_, id, e(text));
+void Page::heading(unsigned level, std::string_view text, std::string_view id) {
+  const unsigned shown = prefix_.empty() ? level : level + 1;  // of several captures: below the name of its file
+  if (id.empty()) {
+    add("<h{0}>{1}</h{0}>\n", shown, e(text));
+  } else {
+    add("<h{0} id=\"{2}{3}\">{1}</h{0}>\n", shown, e(text), prefix_, id);
+  }
 }
 
 void Page::begin_table(std::initializer_list<Column> columns) {
@@ -188,11 +184,11 @@ std::string html(std::span<const Built> captures, const Settings& settings) {
       "href=\"#main\">To the {2}</a>\n<header>\n<p class=\"eyebrow\">servotrace post-mortem report</p>\n"
       "<h1>{0}</h1>\n",
       escape_html(title), kStyle, one ? "verdict" : "overview");
-  Page first(captures.front(), settings, one ? "" : "c1-");
-  if (one) out += first.head();
+  Page only(captures.front(), settings, "");
+  if (one) out += only.head();
   out += "</header>\n<main id=\"main\">\n";
   if (one) {
-    out += first.body();
+    out += only.body();
   } else {
     out += overview(captures);
   }
@@ -200,7 +196,7 @@ std::string html(std::span<const Built> captures, const Settings& settings) {
     Page page(captures[i], settings, fmt::format("c{}-", i + 1));
     out += fmt::format("<section id=\"c{}\">\n<h2 class=\"capture\">{}</h2>\n", i + 1,
                        escape_html(file_name(captures[i].model)));
-    out += page.head() + deepened(page.body()) + "</section>\n";
+    out += page.head() + page.body() + "</section>\n";
   }
   out +=
       "</main>\n<footer>Made by servotrace. Frames are numbered as Wireshark numbers them; times count from the first "

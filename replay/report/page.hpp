@@ -38,7 +38,8 @@ class Page {
     fmt::format_to(std::back_inserter(out_), format, std::forward<Arguments>(arguments)...);
   }
   static std::string e(std::string_view text) { return escape_html(text); }
-  void heading(std::string_view id, std::string_view text);
+  // Level 2 is a section of the report.
+  void heading(unsigned level, std::string_view text, std::string_view id = {});
   void begin_table(std::initializer_list<Column> columns);
   void end_table() { add("</tbody></table></div>\n"); }
   void figure(std::string_view svg, std::string_view caption);

@@ -14,7 +14,7 @@ namespace servotrace::report {
 
 void Page::faults() {
   if (model_.faults.empty()) return;
-  heading("faults", "Faults");
+  heading(2, "Faults", "faults");
   std::size_t number = 0;
   for (const Fault& entry : model_.faults) fault(entry, ++number);
   if (model_.more_faults != 0)
@@ -25,7 +25,7 @@ void Page::faults() {
 void Page::fault(const Fault& fault, std::size_t number) {
   const Finding& finding = model_.findings[fault.finding];
   const Rule& row = rule_row(finding.rule);
-  add("<h3>{}. {}: {}</h3>\n", number, e(capitalised(name_of_finding(finding))), e(fault_text(model_, fault)));
+  heading(3, fmt::format("{}. {}: {}", number, capitalised(name_of_finding(finding)), fault_text(model_, fault)));
   add("<p>{} {} at {}, frame {}: {}. {}</p>\n", severity(finding.severity), rule_link(finding.rule),
       at_time(model_, fault.time_ns), fault.frame, e(row.title), e(row.why));
   if (fault.frame != finding.frame)
@@ -37,7 +37,7 @@ void Page::fault(const Fault& fault, std::size_t number) {
   advice(fault);
   causes(fault);
   before(fault);
-  add("<h4>The window before it</h4>\n");
+  heading(4, "The window before it");
   figure(timeline(model_, settings_, buses_, fault.window_begin_ns, fault.window_end_ns),
          "States and findings around this fault.");
   figure(curves(model_, fault), "Signals of this node around the fault; dashed lines are findings.");
@@ -59,7 +59,7 @@ void Page::at_rest(const Fault& fault) {
 
 void Page::advice(const Fault& fault) {
   const Rule& row = rule_row(model_.findings[fault.finding].rule);
-  add("<h4>What the drive or network reported, and what helps</h4>\n");
+  heading(4, "What the drive or network reported, and what helps");
   begin_table({{"alarm or error"}, {"causes"}, {"remedies"}, {"section"}});
   if (fault.advice.empty()) {
     add("<tr><td>{}</td><td>{}</td><td>{}</td><td class=\"section\">{}</td></tr>\n", e(row.title), e(row.why),
@@ -76,7 +76,8 @@ void Page::advice(const Fault& fault) {
 
 void Page::causes(const Fault& fault) {
   if (fault.causes.empty()) return;
-  add("<h4>Causes, the likeliest first</h4>\n<ol class=\"causes\">\n");
+  heading(4, "Causes, the likeliest first");
+  add("<ol class=\"causes\">\n");
   for (const Candidate& cause : fault.causes) {
     add("<li><span class=\"chip {}\">{}</span> {} <span class=\"facts\">({})</span>", cause.supported ? "yes" : "maybe",
         evidence_word(cause), e(cause.text), e(cause.section));
@@ -98,7 +99,7 @@ void Page::causes(const Fault& fault) {
 
 void Page::before(const Fault& fault) {
   if (fault.preceding.empty()) return;
-  add("<h4>Violations that precede it</h4>\n");
+  heading(4, "Violations that precede it");
   begin_table({{"frame", true}, {"before it", true}, {"rule"}, {"who"}, {"what"}});
   for (const std::size_t index : fault.preceding) {
     const Finding& entry = model_.findings[index];
@@ -113,10 +114,9 @@ void Page::before(const Fault& fault) {
 
 void Page::messages(const Fault& fault) {
   if (fault.messages.empty()) return;
-  add("<h4>Last command and response</h4>\n<p class=\"facts\">Each beside the last different one of its kind before "
-      "it. Fields "
-      "that "
-      "changed are marked and stand first.</p>\n<div class=\"pair\">\n");
+  heading(4, "Last command and response");
+  add("<p class=\"facts\">Each beside the last different one of its kind before it. Fields that changed are marked and "
+      "stand first.</p>\n<div class=\"pair\">\n");
   for (const MessagePair& pair : fault.messages) message_pair(pair);
   add("</div>\n");
 }

@@ -25,10 +25,11 @@ std::uint64_t times(const Model& model, std::string_view id, const NodeRef& node
 }  // namespace
 
 void Page::network() {
-  heading("network", "The network");
+  heading(2, "The network", "network");
   for (const BusSummary& bus : model_.summary.buses) {
     const std::string_view name = buses_.name(bus.bus);
-    add("<h3>{}</h3>\n<p class=\"facts\">{}; {}; {}</p>\n", e(name), plural(bus.frames, "frame"),
+    heading(3, name);
+    add("<p class=\"facts\">{}; {}; {}</p>\n", plural(bus.frames, "frame"),
         bus.protocol == Protocol::kRtex        ? "RTEX"
         : bus.protocol == Protocol::kDevicenet ? "DeviceNet"
                                                : "CAN, not recognised as DeviceNet",
@@ -45,7 +46,7 @@ void Page::network() {
     statistics(bus, nullptr);
     for (const Histogram& entry : model_.histograms) {
       if (!(entry.bus == bus.bus)) continue;
-      add("<h4>{}</h4>\n", e(entry.title));
+      heading(4, entry.title);
       figure(histogram(entry, name), "The height is logarithmic: a single outlier shows beside thousands.");
     }
   }
@@ -53,7 +54,7 @@ void Page::network() {
 
 // By place in the ring: missed updates, and CRC errors with what they suggest.
 void Page::ring(const BusSummary& bus) {
-  add("<h4>By place in the ring</h4>\n");
+  heading(4, "By place in the ring");
   begin_table({{"place", true},
                {"axis"},
                {"Update_Counter stuck", true},
@@ -98,7 +99,8 @@ void Page::can(const BusSummary& bus) {
       static_cast<double>(std::max<DurationNs>(elapsed_ns(model_.capture.first_ns, model_.capture.last_ns), 1)) / 1e9;
   for (const BusLoad& load : model_.loads) {
     if (!(load.bus == bus.bus)) continue;
-    add("<h4>Bus load</h4>\n<p class=\"facts\">Bits of the frames without stuff bits; a capture does not show the bit "
+    heading(4, "Bus load");
+    add("<p class=\"facts\">Bits of the frames without stuff bits; a capture does not show the bit "
         "rate.</p>\n");
     begin_table({{""}, {"kbit/s", true}, {"at 125 kbit/s", true}, {"at 250 kbit/s", true}, {"at 500 kbit/s", true}});
     const auto row = [&](std::string_view what, double kilobits) {
@@ -112,7 +114,7 @@ void Page::can(const BusSummary& bus) {
         static_cast<double>(load.peak_bits) / 1e3 * 1e9 / static_cast<double>(kLoadWindowNs));
     end_table();
   }
-  add("<h4>Time-outs, duplicates and errors</h4>\n");
+  heading(4, "Time-outs, duplicates and errors");
   begin_table({{"node"},
                {"polls unanswered", true},
                {"explicit unanswered", true},
@@ -136,7 +138,7 @@ void Page::allocations(const BusSummary& bus) {
     if (access.node.bus == bus.bus && access.kind == AccessKind::kConnection) shown.push_back(&access);
   }
   if (shown.empty()) return;
-  add("<h4>How the nodes came on line</h4>\n");
+  heading(4, "How the nodes came on line");
   constexpr std::size_t kMost = 200;
   begin_table({{"time", true}, {"frame", true}, {"node"}, {"what"}});
   for (std::size_t i = 0; i < shown.size() && i < kMost; ++i) {

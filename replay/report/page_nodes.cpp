@@ -19,16 +19,16 @@ bool same_node(const NodeRef& left, const NodeRef& right) {
 }  // namespace
 
 void Page::nodes() {
-  heading("nodes", "Axes and nodes");
+  heading(2, "Axes and nodes", "nodes");
   for (const BusSummary& bus : model_.summary.buses) {
     for (const NodeSummary& entry : bus.nodes) node(bus, entry);
   }
 }
 
 void Page::node(const BusSummary& bus, const NodeSummary& node) {
-  add("<h3>{}</h3>\n<div class=\"wide\"><table><thead><tr><th scope=\"col\">identity and settings</th><th "
-      "scope=\"col\">value</th><th scope=\"col\">known from</th></tr></thead><tbody>\n",
-      e(capitalised(node_name(node.node))));
+  heading(3, capitalised(node_name(node.node)));
+  add("<div class=\"wide\"><table><thead><tr><th scope=\"col\">identity and settings</th><th "
+      "scope=\"col\">value</th><th scope=\"col\">known from</th></tr></thead><tbody>\n");
   const auto row = [&](std::string_view key, std::string_view value, std::string_view how) {
     constexpr std::size_t kShort = 24;  // "shown by frame 1234567" stays on its line
     if (!value.empty())
@@ -56,7 +56,7 @@ void Page::modes(const NodeRef& node) {
     const bool is_mode = track.field->key == "cyclic_command" || track.field->key == "command_code" ||
                          track.field->key == "executing_block_number";
     if (!same_node(track.node, node) || !is_mode || track.changes.empty()) continue;
-    add("<h4>{} over time</h4>\n", e(track.field->label));
+    heading(4, fmt::format("{} over time", track.field->label));
     begin_table({{"from", true}, {"to", true}, {"frame", true}, {"value"}});
     TimeNs since = track.first_ns;
     std::int64_t value = track.first_value;
@@ -121,7 +121,7 @@ void Page::access_table(const NodeRef& node, std::string_view title, std::initia
   if (shown.empty()) return;
   constexpr std::size_t kMost = 500;
   const bool fold = shown.size() > 25;
-  add("<h4>{}</h4>\n", e(title));
+  heading(4, title);
   if (fold) add("<details><summary>{}</summary>\n", plural(shown.size(), "transaction"));
   begin_table({{"time", true}, {"frame", true}, {"kind"}, {"what"}, {"before"}, {"value"}});
   for (std::size_t i = 0; i < shown.size() && i < kMost; ++i) {
@@ -144,7 +144,7 @@ void Page::statistics(const BusSummary& bus, const NodeRef* node) {
     if (statistic.count != 0) shown.push_back(&statistic);
   }
   if (shown.empty()) return;
-  if (node != nullptr) add("<h4>Handshakes and answers: how long they took</h4>\n");
+  if (node != nullptr) heading(4, "Handshakes and answers: how long they took");
   begin_table({{"latency or interval"},
                {"count", true},
                {"minimum", true},

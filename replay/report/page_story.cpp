@@ -13,7 +13,7 @@ namespace servotrace::report {
 
 void Page::verdict() {
   constexpr std::string_view kClasses[] = {"nothing", "clean", "violations", "fault"};
-  heading("verdict", "Verdict");
+  heading(2, "Verdict", "verdict");
   add("<div class=\"verdict {}\"><p class=\"headline\">{}</p>\n",
       kClasses[static_cast<std::size_t>(model_.verdict.kind)], e(model_.verdict.headline));
   for (const std::string& sentence : model_.verdict.sentences) add("<p>{}</p>\n", e(sentence));
@@ -23,7 +23,7 @@ void Page::verdict() {
 void Page::comparison() {
   if (!model_.comparison) return;
   const Comparison& other = *model_.comparison;
-  heading("against", "Where the captures part");
+  heading(2, "Where the captures part", "against");
   add("<p>This capture beside <strong>{}</strong>, of which the verdict is: {}</p>\n", e(other.file),
       e(other.headline));
   if (other.partings.empty() && other.settings.empty() && other.rules.empty()) {
@@ -53,7 +53,7 @@ void Page::comparison() {
     if (other.more_partings != 0) add("<p>{} more states differ.</p>\n", other.more_partings);
   }
   if (!other.settings.empty()) {
-    add("<h3>Settings and parameters that differ</h3>\n");
+    heading(3, "Settings and parameters that differ");
     begin_table({{"who"}, {"setting"}, {"here"}, {"there"}});
     for (const Comparison::Setting& row : other.settings) {
       add("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", e(row.node), e(row.key),
@@ -62,7 +62,7 @@ void Page::comparison() {
     end_table();
   }
   if (!other.rules.empty()) {
-    add("<h3>Findings that differ</h3>\n");
+    heading(3, "Findings that differ");
     begin_table({{"rule"}, {""}, {"here", true}, {"there", true}});
     for (const Comparison::RuleCount& row : other.rules) {
       add("<tr><td>{}</td><td>{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td></tr>\n",
@@ -73,7 +73,7 @@ void Page::comparison() {
 }
 
 void Page::timelines() {
-  heading("timeline", "First-out timeline");
+  heading(2, "First-out timeline", "timeline");
   figure(timeline(model_, settings_, buses_, model_.capture.first_ns, model_.capture.last_ns),
          "Bars: the state is on, or the mode it names. Marks: \xE2\x96\xB2 error, \xE2\x97\x86 warning, \xE2\x97\x8F "
          "note; a line below a mark is how long it lasted. Time counts from the first frame.");
@@ -130,7 +130,7 @@ void Page::story() {
   }
   const std::size_t begin = at > 24 ? at - 24 : 0;
   const std::size_t end = std::min(telling.size(), begin + 36);
-  add("<h3>What happened, in order</h3>\n");
+  heading(3, "What happened, in order");
   if (telling.empty()) {
     add("<p>No servo, alarm, limit or progress state changed, and nothing was found.</p>\n");
   } else {

@@ -12,7 +12,7 @@
 namespace servotrace::report {
 
 void Page::violations() {
-  heading("violations", "Violations by rule");
+  heading(2, "Violations by rule", "violations");
   std::map<std::string_view, std::vector<const Finding*>> by_rule;
   for (const Finding& finding : model_.findings) by_rule[rule_row(finding.rule).id].push_back(&finding);
   std::uint64_t checked = 0;
@@ -38,9 +38,9 @@ void Page::violations() {
 
 void Page::rule(const std::vector<const Finding*>& findings) {
   const Rule& row = rule_row(findings.front()->rule);
-  add("<h3 id=\"{}{}\">{} {}</h3>\n<p><strong>{}</strong> ({}, {}; {}). {}</p>\n<p>What to do: {}</p>\n", prefix_,
-      row.id, row.id, e(row.slug), e(row.title), name_of(row.severity), name_of(findings.front()->actor),
-      e(row.section), e(row.why), e(row.fix));
+  heading(3, fmt::format("{} {}", row.id, row.slug), row.id);
+  add("<p><strong>{}</strong> ({}, {}; {}). {}</p>\n<p>What to do: {}</p>\n", e(row.title), name_of(row.severity),
+      name_of(findings.front()->actor), e(row.section), e(row.why), e(row.fix));
   constexpr std::size_t kOpen = 5;    // shown at once
   constexpr std::size_t kMost = 100;  // in the file
   for (std::size_t i = 0; i < findings.size() && i < kMost; ++i) {
@@ -92,7 +92,7 @@ void Page::in_full(const Finding& finding) {
 }
 
 void Page::limits() {
-  heading("limits", "What this capture cannot show");
+  heading(2, "What this capture cannot show", "limits");
   add("<ul>\n");
   for (const std::string& text : model_.cannot_show) add("<li>{}</li>\n", e(text));
   add("</ul>\n");
