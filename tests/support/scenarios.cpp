@@ -8,6 +8,7 @@
 #include "decoder/findings/catalogue.hpp"
 #include "decoder/pipeline/pipeline.hpp"
 #include "decoder/render/message.hpp"
+#include "decoder/render/value.hpp"
 #include "replay/settings/settings.hpp"
 #include "tests/support/paths.hpp"
 
@@ -63,44 +64,14 @@ std::vector<CheckedFinding> check(const simulator::Simulation& simulation, const
   std::vector<CheckedFinding> result;
   for (const Finding& finding : pipeline.findings().all()) {
     const std::string id(rule_row(finding.rule).id);
-    std::string text = "frame " + std::to_string(finding.frame) + ' ' + std::string(severity_name(finding.severity)) +
-                       ' ' + id + " mac_id " + std::to_string(finding.node.mac_id);
-    const std::string_view channel = channel_name(finding.node.channel);
+    std::string text = "frame " + std::to_string(finding.frame) + ' ' + std::string(name_of(finding.severity)) + ' ' +
+                       id + " mac_id " + std::to_string(finding.node.mac_id);
+    const std::string_view channel = name_of(finding.node.channel);
     if (!channel.empty()) text += ' ' + std::string(channel);
     text += " x" + std::to_string(finding.count) + ": " + message(finding);
     result.push_back({finding, id, text});
   }
   return result;
-}
-
-std::string_view channel_name(Channel channel) {
-  switch (channel) {
-    case Channel::kMain:
-      return "main";
-    case Channel::kSub:
-      return "sub";
-    case Channel::kPoll:
-      return "poll";
-    case Channel::kExplicit:
-      return "explicit";
-    case Channel::kUnconnected:
-      return "unconnected";
-    case Channel::kNone:
-      break;
-  }
-  return "";
-}
-
-std::string_view severity_name(Severity severity) {
-  switch (severity) {
-    case Severity::kError:
-      return "error";
-    case Severity::kWarning:
-      return "warning";
-    case Severity::kNote:
-      break;
-  }
-  return "note";
 }
 
 }  // namespace servotrace::test

@@ -32,7 +32,4 @@ Pipeline judged(const simulator::Simulation& simulation, const Settings& setting
 // What that finds.
 std::vector<CheckedFinding> check(const simulator::Simulation& simulation, const Settings& settings);
 
-std::string_view channel_name(Channel channel);     // "" where there is none
-std::string_view severity_name(Severity severity);  // "note"
-
 }  // namespace servotrace::test

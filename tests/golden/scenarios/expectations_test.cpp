@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "decoder/findings/catalogue.hpp"
+#include "decoder/render/value.hpp"
 #include "tests/support/scenarios.hpp"
 
 namespace servotrace::test {
@@ -14,8 +15,8 @@ bool matches(const simulator::ExpectedFinding& expected, const CheckedFinding& f
   const Finding& finding = found.finding;
   if (expected.rule != found.rule) return false;
   if (!expected.any_node && expected.mac_id != finding.node.mac_id) return false;
-  if (!expected.channel.empty() && expected.channel != channel_name(finding.node.channel)) return false;
-  if (!expected.severity.empty() && expected.severity != severity_name(finding.severity)) return false;
+  if (!expected.channel.empty() && expected.channel != name_of(finding.node.channel)) return false;
+  if (!expected.severity.empty() && expected.severity != name_of(finding.severity)) return false;
   if (expected.cause.empty()) return true;
   return finding.cause.frame != 0 && expected.cause == rule_row(finding.cause.rule).id;
 }
