@@ -38,9 +38,11 @@ std::string_view name_of_message(const Identifier& id, const Node* node) {
 }  // namespace
 
 Bus::Bus(const Settings& settings, const BusRef& ref, Findings& findings)
-    : settings_(settings), ref_(ref), findings_(findings) {
-  owner_ = findings.owner(NodeRef{.bus = ref, .protocol = Protocol::kDevicenet});
-  capture_owner_ = findings.owner(NodeRef{.bus = BusRef{.interface_id = ref.interface_id}});
+    : settings_(settings),
+      ref_(ref),
+      findings_(findings),
+      owner_(findings.owner(NodeRef{.bus = ref, .protocol = Protocol::kDevicenet})),
+      capture_owner_(findings.owner(NodeRef{.bus = BusRef{.interface_id = ref.interface_id}})) {
   configured_ = settings.devicenet.assumed;
   devicenet_ = configured_;
 }

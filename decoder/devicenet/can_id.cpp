@@ -88,8 +88,8 @@ constexpr Identifier make_identifier(std::uint16_t value) {
 // Of every 11-bit identifier: taken apart by the compiler, one load a frame.
 constexpr auto kIdentifiers = [] {
   std::array<Identifier, 0x800> all{};
-  for (std::size_t value = 0; value < all.size(); ++value)
-    all[value] = make_identifier(static_cast<std::uint16_t>(value));
+  std::uint16_t value = 0;
+  for (Identifier& identifier : all) identifier = make_identifier(value++);
   return all;
 }();
 

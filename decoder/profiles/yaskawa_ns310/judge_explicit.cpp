@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Explicit messages: what they teach of parameters and command blocks, and YS302-YS306, YS401-YS404, YS905's code.
+#include <algorithm>
+
 #include "decoder/findings/catalogue.hpp"
 #include "decoder/profiles/yaskawa_ns310/derived.hpp"
 #include "decoder/profiles/yaskawa_ns310/session.hpp"
@@ -150,7 +152,7 @@ void Session::judge_pairs(const Context& context) {
     // Both readings of their range: signed, or all 32 bits.
     const auto numerator = static_cast<std::int64_t>(static_cast<std::uint32_t>(gear_numerator_.value));
     const auto denominator = static_cast<std::int64_t>(static_cast<std::uint32_t>(gear_denominator_.value));
-    const bool bad = denominator == 0 || numerator * 100 < denominator || numerator > denominator * 100;
+    const bool bad = denominator == 0 || std::max(numerator, denominator) > 100 * std::min(numerator, denominator);
     judge(context, bad,
           {.rule = rule("YS401"),
            .arguments = {numerator, denominator},
