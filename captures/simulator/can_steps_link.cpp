@@ -63,11 +63,9 @@ void power_up(CanWorld& world, TableReader& step) {
 void power_up_twin(CanWorld& world, TableReader& step) {
   const std::uint8_t mac_id = world.node(step);
   const bool wait = step.boolean("wait", true);
-  Slave* twin = nullptr;
-  for (const auto& entry : world.slaves) {
-    if (entry->settings().mac_id == mac_id) twin = entry.get();
-  }
-  twin->power_up();
+  const auto twin = std::find_if(world.slaves.rbegin(), world.slaves.rend(),
+                                 [mac_id](const auto& slave) { return slave->settings().mac_id == mac_id; });
+  (*twin)->power_up();  // world.node() has found one
   if (wait) world.bus.run(world.bus.now_ns() + kBootNs);
 }
 
