@@ -47,9 +47,8 @@ inline constexpr auto kModeRules = std::to_array<RtexRule>({
              .severity = Severity::kError,
              .actor = Actor::kMaster,
              .title = "The control mode changes twice within 2 ms",
-             .message =
-                 "control mode changes from {0} to {1}, {2|communication cycle} after the last change; 2 ms are "
-                 "{3}",
+             .message = "control mode changes from {0} to {1}, {2|communication cycle} after the last change; 2 ms are "
+                        "{3}",
              .arguments =
                  {{{ArgumentFormat::kDecimalName, kCyclicNames}, {ArgumentFormat::kDecimalName, kCyclicNames}, {}, {}}},
              .section = "SX-DSV02203 7-6-3",

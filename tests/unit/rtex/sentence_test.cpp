@@ -2,6 +2,7 @@
 // What the Info column and the evidence lines say of an RTEX record.
 #include "decoder/render/sentence.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -33,10 +34,10 @@ TEST_F(Sentences, OfAParameterReadAndItsAnswers) {
   bench_.at(0).data = 10'000;
   const std::vector<std::string> all = said(6, 0x010, 0x0008);
   constexpr const char* kWhat = "parameter reading Pr0\\.08 number of command pulses per motor revolution";
-  EXPECT_THAT(all[0], MatchesRegex(std::string("axis [0-9]+ command: CP -?[0-9]+, .*") + kWhat +
-                                   ", waiting for echo, counter [0-3].*"));
+  EXPECT_THAT(all[0], MatchesRegex(fmt::format(
+                          "axis [0-9]+ command: CP -?[0-9]+, .*{}, waiting for echo, counter [0-3].*", kWhat)));
   EXPECT_THAT(all[1], MatchesRegex("axis [0-9]+ response: CP, APOS .*counter [0-3].*"));
-  EXPECT_THAT(all, Contains(MatchesRegex(std::string("axis [0-9]+ response: .*") + kWhat + " = 10000, counter.*")));
+  EXPECT_THAT(all, Contains(MatchesRegex(fmt::format("axis [0-9]+ response: .*{} = 10000, counter.*", kWhat))));
   EXPECT_THAT(all.back(), Not(HasSubstr("waiting")));
 }
 
