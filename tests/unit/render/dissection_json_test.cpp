@@ -9,6 +9,7 @@
 
 #include "decoder/pipeline/pipeline.hpp"
 #include "decoder/render/text_cache.hpp"
+#include "tests/support/sanitized.hpp"
 #include "tests/support/scenarios.hpp"
 
 namespace servotrace::test {
@@ -48,7 +49,9 @@ void compare(const simulator::Simulation& simulation, const Settings& settings) 
 }
 
 TEST(DissectionJson, KeptTextsAreTheSameTexts) {
-  for (const std::filesystem::path& path : scenario_files()) {
+  const std::vector<std::filesystem::path> paths = scenario_files();
+  for (std::size_t i = 0; i < paths.size(); i += kSanitized ? 6 : 1) {
+    const std::filesystem::path& path = paths[i];
     SCOPED_TRACE(path.stem().string());
     const simulator::Scenario scenario = load_scenario(path);
     compare(simulate_scenario(scenario), settings_of(scenario));
