@@ -44,17 +44,19 @@ Settings settings_of(const simulator::Scenario& scenario) {
   return {};
 }
 
+RawFrame raw_frame(const simulator::Simulation& simulation, std::size_t index) {
+  const simulator::SimulatedFrame& frame = simulation.frames[index];
+  return {.number = index + 1,
+          .time_ns = frame.time_ns,
+          .link_type = simulation.interfaces[frame.interface_id].link_type,
+          .interface_id = frame.interface_id,
+          .bytes = frame.bytes,
+          .original_length = frame.original_length};
+}
+
 Pipeline judged(const simulator::Simulation& simulation, const Settings& settings) {
   Pipeline pipeline(settings);
-  std::uint64_t number = 0;
-  for (const simulator::SimulatedFrame& frame : simulation.frames) {
-    pipeline.push({.number = ++number,
-                   .time_ns = frame.time_ns,
-                   .link_type = simulation.interfaces[frame.interface_id].link_type,
-                   .interface_id = frame.interface_id,
-                   .bytes = frame.bytes,
-                   .original_length = frame.original_length});
-  }
+  for (std::size_t i = 0; i < simulation.frames.size(); ++i) pipeline.push(raw_frame(simulation, i));
   pipeline.finish();
   return pipeline;
 }

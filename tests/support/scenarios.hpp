@@ -27,6 +27,8 @@ struct CheckedFinding {
   std::string text;  // for messages
 };
 
+// Frame `index`, as a reader hands it over; it views the simulation.
+RawFrame raw_frame(const simulator::Simulation& simulation, std::size_t index);
 // All frames through one pipeline, then finish().
 Pipeline judged(const simulator::Simulation& simulation, const Settings& settings);
 // What that finds.

@@ -72,17 +72,11 @@ void expect_same_shown(const simulator::Simulation& simulation, Settings setting
   Pipeline quick(settings);
   const auto expected = std::make_unique<Dissection>();
   const auto found = std::make_unique<Dissection>();
-  std::uint64_t number = 0;
-  for (const simulator::SimulatedFrame& frame : simulation.frames) {
-    const RawFrame raw{.number = ++number,
-                       .time_ns = frame.time_ns,
-                       .link_type = simulation.interfaces[frame.interface_id].link_type,
-                       .interface_id = frame.interface_id,
-                       .bytes = frame.bytes,
-                       .original_length = frame.original_length};
+  for (std::size_t i = 0; i < simulation.frames.size(); ++i) {
+    const RawFrame raw = raw_frame(simulation, i);
     full.push(raw, expected.get());
     quick.push(raw, found.get());
-    ASSERT_EQ(texts(*found), texts(*expected)) << "frame " << number;
+    ASSERT_EQ(texts(*found), texts(*expected)) << "frame " << raw.number;
   }
 }
 

@@ -7,20 +7,11 @@
 #include "decoder/pipeline/pipeline.hpp"
 #include "replay/capture/source.hpp"
 #include "tests/support/counting_new.hpp"
+#include "tests/support/scenarios.hpp"
 #include "tests/support/traffic.hpp"
 
 namespace servotrace::test {
 namespace {
-
-RawFrame raw_frame(const simulator::Simulation& simulation, std::size_t index) {
-  const simulator::SimulatedFrame& frame = simulation.frames[index];
-  return {.number = index + 1,
-          .time_ns = frame.time_ns,
-          .link_type = simulation.interfaces[frame.interface_id].link_type,
-          .interface_id = frame.interface_id,
-          .bytes = frame.bytes,
-          .original_length = frame.original_length};
-}
 
 void expect_no_allocation(const std::string& scenario, std::size_t at_least, const char* name) {
   const simulator::Simulation simulation = make_traffic(scenario);

@@ -12,6 +12,7 @@
 #include "replay/report/series.hpp"
 #include "tests/support/disturbed.hpp"
 #include "tests/support/sanitized.hpp"
+#include "tests/support/scenarios.hpp"
 #include "tests/support/traffic.hpp"
 
 namespace servotrace::test {
@@ -87,18 +88,11 @@ TEST(Repeats, MostOfAQuietRingIsNotTakenApart) {
     Pipeline pipeline{Settings{}};
     const auto dissection = std::make_unique<Dissection>();
     dissection->only_news = only_news;
-    std::uint64_t number = 0;
     std::size_t repeated = 0;
-    for (const simulator::SimulatedFrame& frame : simulation.frames) {
-      pipeline.push({.number = ++number,
-                     .time_ns = frame.time_ns,
-                     .link_type = simulation.interfaces[frame.interface_id].link_type,
-                     .interface_id = frame.interface_id,
-                     .bytes = frame.bytes,
-                     .original_length = frame.original_length},
-                    dissection.get());
+    for (std::size_t i = 0; i < simulation.frames.size(); ++i) {
+      pipeline.push(raw_frame(simulation, i), dissection.get());
       repeated += dissection->repeats ? 1 : 0;
-      EXPECT_EQ(dissection->segments.size() == 1, dissection->repeats) << number;  // the record's header
+      EXPECT_EQ(dissection->segments.size() == 1, dissection->repeats) << i;  // the record's header
     }
     EXPECT_EQ(repeated > simulation.frames.size() / 2, only_news) << repeated;
     EXPECT_TRUE(only_news || repeated == 0) << repeated;
