@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "decoder/core/slot.hpp"
 #include "decoder/devicenet/derived.hpp"
@@ -111,13 +112,16 @@ void AccessLog::add_rtex(const RawFrame& frame, const Dissection& dissection) {
       echo = &segment;
       continue;
     }
-    if (echo == nullptr || !(echo->node.bus == segment.node.bus) || echo->node.mac_id != segment.node.mac_id) continue;
-    const Bytes asked = dissection.bytes(*echo);
+    if (echo == nullptr) continue;
+    // The word behind the echo is its value; what follows in a wide block is the sub channel's.
+    const Segment* const before = std::exchange(echo, nullptr);
+    if (!(before->node.bus == segment.node.bus) || before->node.mac_id != segment.node.mac_id) continue;
+    const Bytes asked = dissection.bytes(*before);
     const Bytes given = dissection.bytes(segment);
-    const Field* busy = echo->layout->find("busy");
-    const Field* err = echo->layout->find("err");
+    const Field* busy = before->layout->find("busy");
+    const Field* err = before->layout->find("err");
     if (busy == nullptr || read(slot_of(*busy), asked) != 0) continue;
-    const Field& type = *echo->layout->find("type_code_echo");
+    const Field& type = *before->layout->find("type_code_echo");
     const std::int64_t type_code = read(slot_of(type), asked);
     Access access{.kind = AccessKind::kRead,
                   .time_ns = frame.time_ns,
@@ -125,13 +129,13 @@ void AccessLog::add_rtex(const RawFrame& frame, const Dissection& dissection) {
                   .node = segment.node,
                   .refused = err != nullptr && read(slot_of(*err), asked) != 0};
     const bool is_value = type_code == rtex::kParameterRead || type_code == rtex::kParameterWrite;
-    if (is_value && echo->layout == &rtex::kParameterEcho) {
+    if (is_value && before->layout == &rtex::kParameterEcho) {
       const std::int64_t index = read(slot(rtex::kParameterEcho, "parameter_echo"), asked);
       const ValueName* name = find_value(rtex::kParameterNames, index);
       access.what = name != nullptr ? std::string(name->name) : fmt::format("Pr{}.{:02}", index >> 8, index & 0xFF);
       access.value = values_of(*layout, given);
       if (type_code == rtex::kParameterWrite) access.kind = AccessKind::kWrite;
-    } else if (layout == &rtex::kCharacters[0] && echo->layout == &rtex::kSystemIdEcho) {
+    } else if (layout == &rtex::kCharacters[0] && before->layout == &rtex::kSystemIdEcho) {
       const std::int64_t index = read(slot(rtex::kSystemIdEcho, "index_echo"), asked);
       access.kind = AccessKind::kIdentity;
       const ValueName* name = find_value(rtex::kSystemIdTypes, type_code);
@@ -156,7 +160,7 @@ void AccessLog::add_rtex(const RawFrame& frame, const Dissection& dissection) {
       access.value = piece;
       note(std::move(access));
       continue;
-    } else if (layout == &rtex::kAlarmCode && echo->layout == &rtex::kAlarmEcho) {
+    } else if (layout == &rtex::kAlarmCode && before->layout == &rtex::kAlarmEcho) {
       const std::int64_t index = read(slot(rtex::kAlarmEcho, "index_echo"), asked);
       access.kind = AccessKind::kAlarm;
       access.what = type_code != rtex::kAlarmRead ? value_text(type, type_code)
